@@ -1,0 +1,12 @@
+# OpenImageIO without its own CMake package, which asks for all of its dependencies.
+find_path(OpenImageIOLight_INCLUDE_DIR OpenImageIO/imageio.h)
+find_library(OpenImageIOLight_LIBRARY OpenImageIO)
+find_library(OpenImageIOLight_UTIL_LIBRARY OpenImageIO_Util)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenImageIOLight REQUIRED_VARS OpenImageIOLight_LIBRARY OpenImageIOLight_INCLUDE_DIR)
+if(OpenImageIOLight_FOUND AND NOT TARGET OpenImageIOLight::OpenImageIO)
+  add_library(OpenImageIOLight::OpenImageIO UNKNOWN IMPORTED)
+  set_target_properties(OpenImageIOLight::OpenImageIO PROPERTIES IMPORTED_LOCATION ${OpenImageIOLight_LIBRARY})
+  target_include_directories(OpenImageIOLight::OpenImageIO SYSTEM INTERFACE ${OpenImageIOLight_INCLUDE_DIR})
+  target_link_libraries(OpenImageIOLight::OpenImageIO INTERFACE ${OpenImageIOLight_UTIL_LIBRARY})
+endif()

@@ -1,0 +1,41 @@
+# Optional parts, each on when its package is found, and the flags that all code is compiled with.
+
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(VulkanHeaders REQUIRED)
+find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
+
+# strandlab_optional(NAME package help): option STRANDLAB_NAME, on by default where the package is found.
+function(strandlab_optional name package help)
+  find_package(${package} QUIET)
+  option(STRANDLAB_${name} "${help}" ${${package}_FOUND})
+  if(STRANDLAB_${name} AND NOT ${package}_FOUND)
+    message(FATAL_ERROR "STRANDLAB_${name} is on, but ${package} was not found: install it (tools/setup) or pass -DSTRANDLAB_${name}=OFF")
+  elseif(NOT STRANDLAB_${name})
+    message(STATUS "strandlab: without ${package} (${help})")
+  endif()
+endfunction()
+
+strandlab_optional(EMBREE Embree "Embree as a second opinion")
+strandlab_optional(IMAGES OpenImageIOLight "PNG and EXR images through OpenImageIO")
+strandlab_optional(TESTS GTest "tests")
+
+option(STRANDLAB_SANITIZE "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(STRANDLAB_WERROR "Warnings are errors" OFF)
+
+add_library(strandlab_flags INTERFACE)
+# No contraction: the C++ versions of the intersectors must round as the text says.
+target_compile_options(strandlab_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion)
+if(STRANDLAB_WERROR)
+  target_compile_options(strandlab_flags INTERFACE -Werror)
+endif()
+if(STRANDLAB_SANITIZE)
+  target_compile_options(strandlab_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                         -fno-omit-frame-pointer)
+  target_link_options(strandlab_flags INTERFACE -fsanitize=address,undefined)
+endif()
