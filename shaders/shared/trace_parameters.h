@@ -30,7 +30,7 @@ struct GeometryRow {
     address leaf_records;     // one per leaf
     address curve_records;    // one per curve
     address shading_records;  // whatever the closest-hit shader wants for normals
-    uint first_leaf;          // of this structure within the geometry, where the leaf follows from its index
+    uint first_leaf;          // of this structure within its geometry
     uint first_curve;         // of this model within the scene
     uint pieces;              // per curve, where the leaf follows from its index
     uint padding;

@@ -3,8 +3,8 @@
 //
 //     template <class real> struct LssKernel {
 //         STRANDLAB_KERNEL_TYPES
-//     #include "shared/ray_frame.h"
-//     #include "primitives/lss.h"
+//     #include "shaders/shared/ray_frame.h"
+//     #include "shaders/primitives/lss.h"
 //     };
 #pragma once
 

@@ -1,0 +1,55 @@
+// What every ray-tracing stage needs: the push constants, the tables they address, the payload.
+#ifndef STRANDLAB_TRACE_GLSL
+#define STRANDLAB_TRACE_GLSL
+
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+#include "shared/leaf.h"
+#include "shared/trace_parameters.h"
+
+layout(push_constant) uniform PushConstants { TraceParameters parameters; };
+
+// Specialization constants of all primitives (ids below 16); those of one primitive start at 16.
+layout(constant_id = 0) const bool has_leaf_table = true;  // else leaf i is piece i % n of curve i / n
+layout(constant_id = 1) const bool wants_normals = false;
+
+struct Ray {
+    vec3 origin;
+    float tmin;
+    vec3 direction;
+    float tmax;
+};
+
+struct Hit {
+    float t;
+    float u;
+    uint curve;
+    uint instance;
+};
+
+struct TracePayload {
+    Hit hit;
+    vec3 normal;
+};
+
+const uint no_curve = 0xFFFFFFFFu;
+
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer RayBuffer { Ray items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) writeonly buffer HitBuffer { Hit items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer FloatBuffer { float items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer RowBuffer { GeometryRow items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer LeafBuffer { Leaf items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Vec4Buffer { vec4 items[]; };
+
+GeometryRow fetch_row(uint custom_index) { return RowBuffer(parameters.rows).items[custom_index]; }
+
+// The leaf behind a primitive index of the current acceleration structure.
+Leaf fetch_leaf(GeometryRow row, uint primitive) {
+    if (has_leaf_table) return LeafBuffer(row.leaves).items[row.first_leaf + primitive];
+    uint index = row.first_leaf + primitive;
+    return Leaf(index / row.pieces, (index % row.pieces) | (row.pieces << 12));
+}
+
+#endif

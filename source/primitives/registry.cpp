@@ -1,0 +1,16 @@
+// All primitives, one line each, in the order in which reports list them.
+#include "primitives/lss.h"
+#include "primitives/primitive.h"
+
+#include <array>
+
+namespace strandlab {
+
+std::span<const Primitive> primitives() {
+    static const std::array all = {
+        lss(),
+    };
+    return all;
+}
+
+}  // namespace strandlab
