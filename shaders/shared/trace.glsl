@@ -36,6 +36,8 @@ struct TracePayload {
 
 const uint no_curve = 0xFFFFFFFFu;
 
+Hit miss() { return Hit(uintBitsToFloat(0x7F800000u), 0.0, no_curve, 0u); }
+
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer RayBuffer { Ray items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) writeonly buffer HitBuffer { Hit items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer FloatBuffer { float items[]; };

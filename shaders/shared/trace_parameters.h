@@ -17,14 +17,14 @@ struct TraceParameters {
     address rays;     // Ray[]
     address hits;     // Hit[]
     address normals;  // 3 floats per ray; read only when normals are asked for
-    address rows;     // GeometryRow[], indexed by the custom index of the instance
+    address rows;     // GeometryRow[], indexed by the custom index of the structure's instance
     uint first_ray;   // of this launch
     uint ray_count;   // rays beyond it are not traced
     uint ray_flags;   // gl_RayFlags* besides opaque
-    uint padding;
+    uint is_shadow;   // not 0: only whether anything is hit
 };
 
-// One bottom-level acceleration structure: where its shaders find their records.
+// One instance of a bottom-level acceleration structure: where its shaders find their records.
 struct GeometryRow {
     address leaves;           // Leaf[], or unused where the leaf follows from its index
     address leaf_records;     // one per leaf
@@ -33,7 +33,7 @@ struct GeometryRow {
     uint first_leaf;          // of this structure within its geometry
     uint first_curve;         // of this model within the scene
     uint pieces;              // per curve, where the leaf follows from its index
-    uint padding;
+    uint instance;            // of the scene: hits name it
 };
 
 #ifdef __cplusplus

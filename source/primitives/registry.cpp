@@ -1,5 +1,6 @@
 // All primitives, one line each, in the order in which reports list them.
 #include "primitives/lss.h"
+#include "primitives/null_primitive.h"
 #include "primitives/primitive.h"
 
 #include <array>
@@ -9,6 +10,7 @@ namespace strandlab {
 std::span<const Primitive> primitives() {
     static const std::array all = {
         lss(),
+        null_primitive(),
     };
     return all;
 }

@@ -1,0 +1,106 @@
+// A scene on the device for one primitive: structures, records, pipeline; and tracing rays through it.
+#pragma once
+
+#include "gpu/acceleration_structure.h"
+#include "gpu/device.h"
+#include "gpu/ray_tracing_pipeline.h"
+#include "primitives/primitive.h"
+#include "scene/hits.h"
+#include "scene/rays.h"
+#include "shaders/shared/trace_parameters.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace strandlab {
+
+/// One model of a scene: its geometry for the primitive, and its first curve within the scene.
+struct SceneModel {
+    Geometry geometry;
+    uint32_t first_curve = 0;
+};
+
+/// One instance of a model.
+struct SceneInstance {
+    uint32_t model = 0;
+    glm::mat4x3 world_from_object{1.0f};
+};
+
+/// How a scene is put on the device.
+struct SceneOptions {
+    /// Leaf order of the build's input. automatic: median where the driver keeps the order (lavapipe).
+    enum class Order { automatic, as_built, median };
+    Order order = Order::automatic;
+    bool compact = true;
+    /// Largest coordinate of any ray origin: boxes are padded for it.
+    float ray_extent = 1.0f;
+    /// Normals will be asked for: keeps what they need.
+    bool normals = false;
+    /// Largest leaf count of one structure; 0: what the device allows. Tests make it small.
+    uint64_t max_leaves = 0;
+};
+
+/// What a scene costs besides its builds.
+struct SceneCost {
+    BuildCost builds;
+    double order_ms = 0;        // host: ordering the leaves
+    double pipeline_ms = 0;     // host: compiling the shaders, as far as the driver does it now
+    uint64_t record_bytes = 0;  // leaves and records, kept while tracing
+    uint64_t leaf_count = 0;
+    uint32_t structure_count = 0;
+};
+
+/// Options of one trace.
+struct TraceOptions {
+    bool shadow = false;  // any hit will do: hits say only whether there is one (curve 0 and t = tmin)
+    uint32_t samples = 1;
+    double warm_up_ms = 0;  // device time to spend before the first sample: an idle GPU is slow
+};
+
+/// Hits of the last sample, and the device time of each sample in milliseconds.
+struct TraceResult {
+    Hits hits;
+    std::vector<double> milliseconds;
+};
+
+class GpuScene {
+  public:
+    /// Orders, pads and uploads; builds the structures; compiles the pipeline. The models are consumed.
+    /// Several structures are built for a model with more leaves, or larger, than the device takes in one.
+    GpuScene(const Device& device, const Primitive& primitive, std::vector<SceneModel> models,
+             std::span<const SceneInstance> instances, const SceneOptions& options);
+
+    const SceneCost& cost() const { return cost_; }
+
+    /// Traces all rays; invalid ones count as misses. normals as the scene was made for.
+    TraceResult trace(const Rays& rays, const TraceOptions& options = {}) const;
+
+  private:
+    struct Part {
+        AccelerationStructure structure;
+        uint32_t model = 0, first_leaf = 0;
+    };
+    struct ModelBuffers {
+        Buffer leaves, leaf_records, curve_records, shading_records;
+    };
+
+    void add_model(const SceneModel& model, uint32_t index, const SceneOptions& options);
+    void add_instances(std::span<const SceneInstance> instances, const std::vector<SceneModel>& models);
+    void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants);
+    std::vector<RayTracingPipeline::Launch> launches(const Rays& rays, layout::TraceParameters parameters) const;
+
+    Device device_;
+    bool normals_ = false;
+    bool has_leaf_table_ = true;
+    std::vector<Part> parts_;
+    std::vector<ModelBuffers> model_buffers_;
+    Buffer rows_;
+    AccelerationStructure top_;
+    std::optional<RayTracingPipeline> pipeline_;  // none for an empty scene
+    SceneCost cost_;
+};
+
+}  // namespace strandlab

@@ -1,0 +1,37 @@
+// Tests on a device: skipped, saying so, where there is none; a validation message is a failure.
+#pragma once
+
+#include "base/error.h"
+#include "gpu/device.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace strandlab {
+
+class GpuTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        if (device_ || !why_none_.empty()) return;
+        try {
+            device_.emplace(DeviceOptions{.selector = "", .validation = true});
+        } catch (const Error& error) {
+            why_none_ = error.what();
+        }
+    }
+    void SetUp() override {
+        if (!device_) GTEST_SKIP() << why_none_;
+    }
+    void TearDown() override {
+        if (!device_) return;
+        for (const std::string& message : device_->validation_messages()) ADD_FAILURE() << message;
+    }
+    static const Device& device() { return *device_; }
+
+  private:
+    static inline std::optional<Device> device_;
+    static inline std::string why_none_;
+};
+
+}  // namespace strandlab
