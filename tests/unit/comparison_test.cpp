@@ -1,0 +1,383 @@
+#include "measure/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace strandlab {
+namespace {
+
+constexpr float radius = 0.01f;
+
+/// A straight curve along x from x to x + 1 at height y.
+Curve line(float x, float y) {
+    Curve curve;
+    for (int i = 0; i < 4; ++i) curve[i] = glm::vec4(x + static_cast<float>(i) / 3, y, 0, radius);
+    return curve;
+}
+
+/// Strand 0: curves 0 and 1 end to end; strand 1: curve 2 above them.
+Curves two_strands() {
+    Curves curves;
+    curves.curves = {line(0, 0), line(1, 0), line(0, 1)};
+    curves.strands = {{0, 2}, {2, 1}};
+    return curves;
+}
+
+/// Rays downwards onto the curves from height 1, with results that agree until a test changes them.
+struct Case {
+    Curves curves = two_strands();
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<ReferenceHit> reference;
+    std::vector<uint8_t> decisive;
+    std::vector<glm::vec3> normals;
+
+    size_t add(bool hits_something = true) {
+        Ray ray;
+        ray.origin = {0.5f, 0, 1};
+        ray.direction = {0, 0, -1};
+        rays.push_back(ray);
+        Hit hit;
+        ReferenceHit expected;
+        if (hits_something) {
+            hit = {1 - radius, 0.5f, 0, 0};
+            expected.t = static_cast<double>(1 - radius);
+            expected.u = 0.5;
+            expected.normal = {0, 0, 1};
+            expected.radius = static_cast<double>(radius);
+            expected.curve = 0;
+        }
+        hits.push_back(hit);
+        reference.push_back(expected);
+        decisive.push_back(1);
+        normals.push_back({0, 0, 1});
+        return rays.size() - 1;
+    }
+
+    ComparisonInput input() const {
+        ComparisonInput in;
+        in.rays = rays;
+        in.hits = hits;
+        in.reference = reference;
+        in.decisive = decisive;
+        in.normals = normals;
+        in.curves = &curves;
+        return in;
+    }
+    Comparison result() const { return compare(input()); }
+    Outcome outcome() const {
+        const ComparisonInput in = input();
+        return RayErrors(in).of(rays.size() - 1).outcome;
+    }
+    float error(Measure measure) const {
+        const ComparisonInput in = input();
+        return RayErrors(in).of(rays.size() - 1).measures[static_cast<size_t>(measure)];
+    }
+};
+
+TEST(Comparison, PerfectResultHasNoError) {
+    Case c;
+    c.add();
+    c.add(false);
+    const Tally& tally = c.result().decisive;
+    EXPECT_EQ(tally.rays, 2u);
+    EXPECT_EQ(tally.matches, 1u);
+    EXPECT_EQ(tally.agreed_misses, 1u);
+    EXPECT_FALSE(tally.has_errors());
+    for (const Measure m : {Measure::distance, Measure::ulps, Measure::strand_u, Measure::offset,
+                            Measure::normal, Measure::tangent}) {
+        EXPECT_EQ(tally.of(m).count, 1u) << measure_infos[static_cast<size_t>(m)].name;
+        EXPECT_EQ(tally.of(m).max, 0) << measure_infos[static_cast<size_t>(m)].name;
+    }
+    EXPECT_EQ(tally.of(Measure::residual).count, 0u);
+}
+
+TEST(Comparison, FalseHitIsCountedPerReferenceMiss) {
+    Case c;
+    c.add(false);
+    c.hits[c.add(false)] = {1, 0.5f, 0, 0};
+    c.add();
+    const Comparison result = c.result();
+    EXPECT_EQ(result.decisive.false_hit.count, 1u);
+    EXPECT_EQ(result.decisive.false_hit.trials, 2u);
+    EXPECT_EQ(result.decisive.false_hit.first_ray, 1u);
+    EXPECT_EQ(result.decisive.false_miss.trials, 1u);
+    EXPECT_EQ(result.decisive.matches, 1u);
+    EXPECT_LT(result.decisive.false_hit.bounds().low, 0.5);
+}
+
+TEST(Comparison, FalseMissIsCountedPerReferenceHit) {
+    Case c;
+    c.hits[c.add()] = Hit();
+    c.add();
+    c.add(false);
+    const Tally& tally = c.result().decisive;
+    EXPECT_EQ(tally.false_miss.count, 1u);
+    EXPECT_EQ(tally.false_miss.trials, 2u);
+    EXPECT_EQ(tally.of(Measure::distance).count, 1u) << "a class is not averaged into the measures";
+}
+
+TEST(Comparison, WrongStrandInstanceOrUnknownCurve) {
+    Case c;
+    c.hits[c.add()].curve = 2;
+    EXPECT_EQ(c.outcome(), Outcome::wrong_strand);
+    c.hits[c.add()].instance = 1;
+    EXPECT_EQ(c.outcome(), Outcome::wrong_strand);
+    c.hits[c.add()].curve = 3;
+    EXPECT_EQ(c.outcome(), Outcome::wrong_strand);
+    c.hits[c.add()].curve = 1;
+    EXPECT_EQ(c.outcome(), Outcome::match) << "another curve of the same strand";
+    EXPECT_EQ(c.result().decisive.wrong_strand.count, 3u);
+}
+
+TEST(Comparison, WrongPlaceBeginsBeyondHalfTheRadius) {
+    Case c;
+    const size_t ray = c.add();
+    const double t = c.reference[ray].t;
+    c.hits[ray].t = static_cast<float>(t + 0.499 * static_cast<double>(radius));
+    EXPECT_EQ(c.outcome(), Outcome::match);
+    EXPECT_NEAR(c.error(Measure::distance), 0.499, 1e-5);
+    c.hits[ray].t = static_cast<float>(t + 0.501 * static_cast<double>(radius));
+    EXPECT_EQ(c.outcome(), Outcome::wrong_place);
+    c.hits[ray].t = static_cast<float>(t - 0.501 * static_cast<double>(radius));
+    EXPECT_EQ(c.outcome(), Outcome::wrong_place);
+}
+
+TEST(Comparison, WrongPlaceCountsInWorldUnitsForLongDirections) {
+    Case c;
+    const size_t ray = c.add();
+    c.rays[ray].direction = {0, 0, -2};
+    c.reference[ray].t /= 2;
+    c.hits[ray].t =
+        static_cast<float>(c.reference[ray].t + 0.4 * static_cast<double>(radius));  // 0.8 r in space
+    EXPECT_EQ(c.outcome(), Outcome::wrong_place);
+    c.hits[ray].t = static_cast<float>(c.reference[ray].t + 0.2 * static_cast<double>(radius));
+    EXPECT_EQ(c.outcome(), Outcome::match);
+    EXPECT_NEAR(c.error(Measure::distance), 0.4, 1e-5);
+}
+
+TEST(Comparison, AFarHitMayBeOffByEightUlps) {
+    Case c;
+    const size_t ray = c.add();
+    const float far = 1e6f;  // spacing 0.0625: half a radius is far below one ulp
+    c.reference[ray].t = static_cast<double>(far);
+    c.hits[ray].t = far + 8 * 0.0625f;
+    EXPECT_EQ(c.outcome(), Outcome::match);
+    EXPECT_EQ(c.error(Measure::ulps), 8);
+    c.hits[ray].t = far + 9 * 0.0625f;
+    EXPECT_EQ(c.outcome(), Outcome::wrong_place);
+}
+
+TEST(Comparison, NanIsAClassAndNeverAMatch) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Case c;
+    c.hits[c.add()].t = nan;
+    EXPECT_EQ(c.outcome(), Outcome::nan);
+    c.hits[c.add()].u = nan;
+    EXPECT_EQ(c.outcome(), Outcome::nan);
+    c.hits[c.add(false)].t = nan;
+    EXPECT_EQ(c.outcome(), Outcome::nan);
+    c.hits[c.add()].t = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(c.outcome(), Outcome::nan);
+    c.reference[c.add()].radius = std::nan("");
+    EXPECT_EQ(c.outcome(), Outcome::wrong_place) << "a bound that is NaN holds nothing";
+    const Comparison result = c.result();
+    EXPECT_EQ(result.decisive.nan.count, 4u);
+    EXPECT_EQ(result.decisive.nan.trials, 5u);
+}
+
+TEST(Comparison, BadNormalsAreCountedNotMeasured) {
+    Case c;
+    c.normals[c.add()] = glm::vec3(0);
+    c.normals[c.add()].x = std::numeric_limits<float>::quiet_NaN();
+    c.normals[c.add()] = {0, 1, 1};
+    const Tally& tally = c.result().decisive;
+    EXPECT_EQ(tally.matches, 3u);
+    EXPECT_EQ(tally.bad_normal.count, 2u);
+    EXPECT_EQ(tally.bad_normal.trials, 3u);
+    EXPECT_EQ(tally.of(Measure::normal).count, 1u);
+    EXPECT_NEAR(tally.of(Measure::normal).max, 45, 1e-5);
+}
+
+TEST(Comparison, GroupsHoldEveryRayOnce) {
+    Case c;
+    c.add();
+    c.decisive[c.add()] = 0;
+    c.hits.back() = Hit();
+    c.reference[c.add()].on_cap = true;
+    c.hits.back().t += 1;
+    c.reference[c.add()].starts_inside = true;
+    c.reference.back().on_cap = true;
+    c.reference[c.add(false)].starts_inside = true;
+    const Comparison result = c.result();
+    EXPECT_EQ(result.rays(), 5u);
+    EXPECT_EQ(result.all.rays, 2u);
+    EXPECT_EQ(result.decisive.rays, 1u);
+    EXPECT_EQ(result.undecided(), 1u);
+    EXPECT_EQ(result.undecided_share(), 0.5);
+    EXPECT_FALSE(result.decisive.has_errors());
+    EXPECT_EQ(result.all.false_miss.count, 1u);
+    EXPECT_EQ(result.on_cap.rays, 1u);
+    EXPECT_EQ(result.on_cap.wrong_place.count, 1u);
+    EXPECT_EQ(result.inside.rays, 2u);
+}
+
+TEST(Comparison, LargeMarginsAreUnresolvable) {
+    Case c;
+    c.add();
+    ComparisonInput in = c.input();
+    in.margin = 1e-3;
+    EXPECT_TRUE(compare(in).is_resolvable());
+    in.margin = 0.11;
+    EXPECT_FALSE(compare(in).is_resolvable());
+    in.margin = std::nan("");
+    EXPECT_FALSE(compare(in).is_resolvable());
+}
+
+TEST(Comparison, UContinuesAcrossAJoint) {
+    Case c;
+    const size_t ray = c.add();
+    c.rays[ray].origin.x = 1;
+    c.reference[ray].u = 0.999;
+    c.hits[ray].curve = 1;
+    c.hits[ray].u = 0.002f;
+    EXPECT_EQ(c.outcome(), Outcome::match);
+    EXPECT_NEAR(c.error(Measure::strand_u), 0.003, 1e-7);
+    EXPECT_NEAR(c.error(Measure::offset), 0, 1e-6);
+    EXPECT_NEAR(c.error(Measure::tangent), 0, 1e-5);
+}
+
+TEST(Comparison, OffsetAndTangentFollowTheCurveAtU) {
+    Case c;
+    // The end of curve 0 leans sideways: at u = 1 the centre is half a radius off and the tangent 45 degrees.
+    c.curves.curves[0] = {glm::vec4(0, 0, 0, radius), glm::vec4(0.4f, 0, 0, radius),
+                          glm::vec4(1 - radius, -radius / 2, 0, radius), glm::vec4(1, radius / 2, 0, radius)};
+    const size_t ray = c.add();
+    c.reference[ray].u = 0;
+    c.hits[ray].u = 1;
+    c.rays[ray].origin = {0, 0, 1};
+    EXPECT_NEAR(c.error(Measure::tangent), 45, 1e-3);
+    // The line along the tangent at u = 1 passes (0, 0) at the distance |0.5 r - 1| / sqrt(2).
+    EXPECT_NEAR(c.error(Measure::offset), (1 - 0.005) / std::sqrt(2.0) / 0.01, 1e-2);
+}
+
+TEST(Comparison, RaysAlongTheCurveHaveNoOffset) {
+    Case c;
+    const size_t ray = c.add();
+    c.rays[ray].direction = {1, 0, 0};
+    EXPECT_TRUE(std::isnan(c.error(Measure::offset)));
+    EXPECT_EQ(c.result().decisive.of(Measure::offset).count, 0u);
+    EXPECT_EQ(c.result().decisive.of(Measure::strand_u).count, 1u);
+}
+
+TEST(Comparison, InstancesAreComparedInObjectSpace) {
+    Case c;
+    const size_t ray = c.add();
+    // The instance is the model turned to lie along y, doubled and moved by (3, 0, 0).
+    glm::mat4x3 transform(0.0f);
+    transform[0] = {0, 2, 0};
+    transform[1] = {-2, 0, 0};
+    transform[2] = {0, 0, 2};
+    transform[3] = {3, 0, 0};
+    const std::vector<glm::mat4x3> transforms{glm::mat4x3(1.0f), transform};
+    c.rays[ray].origin = {3 + radius, 1, 2};  // u = 0.5, half a radius aside
+    c.hits[ray].instance = c.reference[ray].instance = 1;
+    const double t = 2 - 2 * static_cast<double>(radius) * std::sqrt(0.75);
+    c.reference[ray].t = t;
+    c.reference[ray].radius = 2 * static_cast<double>(radius);
+    c.hits[ray].t = static_cast<float>(t);
+    ComparisonInput in = c.input();
+    in.object_to_world = transforms;
+    in.residual_of_curves = true;
+    const RayError error = RayErrors(in).of(ray);
+    EXPECT_EQ(error.outcome, Outcome::match);
+    EXPECT_LT(error.measures[static_cast<size_t>(Measure::residual)], 1e-5f);
+    EXPECT_EQ(error.measures[static_cast<size_t>(Measure::offset)], 0);
+}
+
+TEST(Comparison, ResidualOfTheCurvesOrOfTheCaller) {
+    Case c;
+    const size_t ray = c.add();
+    c.hits[ray].t = 1 - 1.25f * radius;
+    ComparisonInput in = c.input();
+    in.residual_of_curves = true;
+    EXPECT_NEAR(compare(in).decisive.of(Measure::residual).max, 0.25, 1e-4);
+    in.residual = [](size_t i) { return static_cast<double>(i) + 0.5; };
+    EXPECT_EQ(compare(in).decisive.of(Measure::residual).max, 0.5);
+}
+
+TEST(Comparison, ShadowRaysCompareHitOrMissOnly) {
+    Case c;
+    c.hits[c.add()] = {std::nanf(""), std::nanf(""), 2, 9};
+    c.hits[c.add(false)] = {1, 0, 2, 9};
+    ComparisonInput in = c.input();
+    in.hit_or_miss_only = true;
+    in.curves = nullptr;
+    const Comparison result = compare(in);
+    EXPECT_TRUE(result.hit_or_miss_only);
+    EXPECT_EQ(result.decisive.matches, 1u);
+    EXPECT_EQ(result.decisive.false_hit.count, 1u);
+    EXPECT_EQ(result.decisive.nan.count, 0u);
+    EXPECT_EQ(result.decisive.of(Measure::distance).count, 0u);
+}
+
+TEST(Comparison, WithoutCurvesOnlyThePlaceCounts) {
+    Case c;
+    c.hits[c.add()].curve = 77;
+    ComparisonInput in = c.input();
+    in.knows_curves = false;
+    in.curves = nullptr;
+    const Comparison result = compare(in);
+    EXPECT_EQ(result.decisive.matches, 1u);
+    EXPECT_EQ(result.decisive.of(Measure::strand_u).count, 0u);
+    EXPECT_EQ(result.decisive.of(Measure::distance).count, 1u);
+}
+
+TEST(Comparison, PercentilesAreExact) {
+    Case c;
+    // Ray i is off by (i * 7919 mod 10000) ulps of 1e6 (0.0625 each): all values 0 .. 9999 in a mixed order.
+    for (uint32_t i = 0; i < 10000; ++i) {
+        const size_t ray = c.add();
+        c.reference[ray].t = 1e6;
+        c.reference[ray].radius = 2000;
+        c.hits[ray].t = 1e6f + 0.0625f * static_cast<float>(i * 7919 % 10000);
+    }
+    const Percentiles p = c.result().decisive.of(Measure::ulps);
+    EXPECT_EQ(p.count, 10000u);
+    EXPECT_EQ(p.p50, 4999);
+    EXPECT_EQ(p.p95, 9499);
+    EXPECT_EQ(p.p99, 9899);
+    EXPECT_EQ(p.p999, 9989);
+    EXPECT_EQ(p.max, 9999);
+    EXPECT_EQ(p.worst_ray * 7919 % 10000, 9999u);
+}
+
+TEST(Comparison, NoRays) {
+    Case c;
+    const Comparison result = c.result();
+    EXPECT_EQ(result.rays(), 0u);
+    EXPECT_EQ(result.undecided_share(), 0);
+    EXPECT_EQ(result.decisive.false_hit.bounds().high, 1);
+}
+
+TEST(RayError, FloatUlp) {
+    EXPECT_EQ(float_ulp(1.0), std::ldexp(1.0, -23));
+    EXPECT_EQ(float_ulp(1.9999999), std::ldexp(1.0, -23));
+    EXPECT_EQ(float_ulp(-2.0), std::ldexp(1.0, -22));
+    EXPECT_EQ(float_ulp(0.0), std::ldexp(1.0, -149));
+    EXPECT_EQ(float_ulp(1e-42), std::ldexp(1.0, -149));
+    EXPECT_TRUE(std::isnan(float_ulp(std::numeric_limits<double>::infinity())));
+}
+
+TEST(RayError, AnglesAreAccurateWhereTheyAreSmall) {
+    EXPECT_NEAR(angle_between({1, 0, 0}, {1, 1e-9, 0}), 1e-9 * 180 / 3.14159265358979, 1e-16);
+    EXPECT_NEAR(angle_between({1, 0, 0}, {-2, 0, 0}), 180, 1e-12);
+    EXPECT_TRUE(std::isnan(angle_between({0, 0, 0}, {1, 0, 0})));
+    EXPECT_TRUE(std::isnan(angle_between({std::nan(""), 0, 0}, {1, 0, 0})));
+}
+
+}  // namespace
+}  // namespace strandlab
