@@ -1,4 +1,5 @@
 // All primitives, one line each, in the order in which reports list them.
+#include "primitives/dots.h"
 #include "primitives/lss.h"
 #include "primitives/primitive.h"
 
@@ -8,6 +9,7 @@ namespace strandlab {
 
 std::span<const Primitive> primitives() {
     static const std::array all = {
+        dots(),
         lss(),
     };
     return all;
