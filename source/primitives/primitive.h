@@ -36,6 +36,11 @@ struct LeafHit {
 struct CpuIntersectors {
     bool (*single)(const Geometry&, size_t leaf, const Ray&, float tmax, LeafHit<float>&) = nullptr;
     bool (*precise)(const Geometry&, size_t leaf, const Ray&, double tmax, LeafHit<double>&) = nullptr;
+
+    /// What the closest-hit shader does to the nearest hit alone, after traversal: moves it. None for
+    /// most primitives; then the hit stays as it is.
+    void (*finish_single)(const Geometry&, size_t leaf, const Ray&, LeafHit<float>&) = nullptr;
+    void (*finish_precise)(const Geometry&, size_t leaf, const Ray&, LeafHit<double>&) = nullptr;
 };
 
 /// What a caller asks of a primitive besides its parameters.

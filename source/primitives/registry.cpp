@@ -1,4 +1,5 @@
 // All primitives, one line each, in the order in which reports list them.
+#include "primitives/dots.h"
 #include "primitives/lss.h"
 #include "primitives/null_primitive.h"
 #include "primitives/primitive.h"
@@ -9,6 +10,7 @@ namespace strandlab {
 
 std::span<const Primitive> primitives() {
     static const std::array all = {
+        dots(),
         lss(),
         null_primitive(),
     };

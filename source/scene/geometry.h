@@ -51,7 +51,8 @@ struct Geometry {
     std::vector<Leaf> leaves;
     Records leaf_records;     // one per leaf, in leaf order (or none)
     Records curve_records;    // one per curve, or what Leaf::curve selects (or none)
-    Records shading_records;  // read only when normals are asked for (or none)
+    Records shading_records;  // read only when normals are asked for (or none), or always_shades is set
+    bool always_shades = false;
 
     /// When not 0: leaf i is piece i % n of n of curve i / n and has no flags, so that a shader can
     /// compute the leaf from its index and the table need not be stored.
