@@ -1,4 +1,4 @@
-#include "support/ray_families.h"
+#include "unit/support/ray_families.h"
 
 #include "strands/bezier.h"
 
