@@ -2,6 +2,7 @@
 #include "primitives/dots.h"
 #include "primitives/lss.h"
 #include "primitives/null_primitive.h"
+#include "primitives/prhi.h"
 #include "primitives/primitive.h"
 
 #include <array>
@@ -12,6 +13,7 @@ std::span<const Primitive> primitives() {
     static const std::array all = {
         dots(),
         lss(),
+        prhi(),
         null_primitive(),
     };
     return all;

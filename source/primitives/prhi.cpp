@@ -1,0 +1,101 @@
+#include "primitives/prhi.h"
+
+#include "primitives/curved_pieces.h"
+#include "primitives/kernel.h"
+
+namespace strandlab {
+namespace kernels {
+
+template <class real>
+struct PrhiKernel {
+    STRANDLAB_KERNEL_TYPES
+#include "shaders/primitives/prhi.h"
+#include "shaders/shared/ray_frame.h"
+};
+
+}  // namespace kernels
+
+namespace {
+
+enum ConstantId : uint32_t { robust = 16, iterations = 17, flat_ends = 18 };
+
+constexpr double quarter_turn = 1.5707963267948966;
+
+template <class Real>
+bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax, LeafHit<Real>& hit) {
+    using Kernel = kernels::PrhiKernel<Real>;
+    using Real3 = glm::vec<3, Real>;
+    using Real4 = glm::vec<4, Real>;
+    const Leaf leaf = geometry.leaves[index];
+    const Curve& c = curve_record(geometry, leaf);
+    const bool flat = geometry.constant(flat_ends) != 0;
+    return Kernel::prhi_intersect(Real3(ray.origin), Real3(ray.direction), Real(ray.tmin), tmax, Real4(c[0]),
+                                  Real4(c[1]), Real4(c[2]), Real4(c[3]), leaf.piece(), leaf.pieces(),
+                                  geometry.constant(robust) != 0, geometry.constant(iterations),
+                                  flat && (leaf.flags() & Leaf::begins_strand),
+                                  flat && (leaf.flags() & Leaf::ends_strand), hit.t, hit.u, hit.normal);
+}
+
+Surface surface(const Curves& curves, const BuildOptions& options) {
+    return curved_surface(curves, Surface::Sweep::disc, options.caps);
+}
+
+bool is_robust(const Parameters& parameters) {
+    return parameters.is("variant", "robust");
+}
+
+/// A number that defaults, as 0, to what the variant uses.
+uint32_t number_or(const Parameters& parameters, const char* name, uint32_t published,
+                   uint32_t robust_value) {
+    const uint32_t value = parameters.integer(name);
+    return value > 0 ? value : is_robust(parameters) ? robust_value : published;
+}
+
+Geometry build(const Curves& curves, const BuildOptions& options) {
+    const bool flat = options.caps == Caps::flat;
+    const bool is_robust_variant = is_robust(options.parameters);
+    const uint32_t splits = number_or(options.parameters, "splits", 1, 4);
+    // The iteration is safe on pieces that turn at most a quarter; the published algorithm does not split.
+    const std::vector<uint32_t> pieces = is_robust_variant
+                                             ? curved_pieces(curves, splits, quarter_turn)
+                                             : std::vector<uint32_t>(curves.curves.size(), splits);
+    Geometry geometry = build_curved(curves, pieces, flat);
+    geometry.constants = {{robust, is_robust_variant ? 1u : 0u},
+                          {iterations, number_or(options.parameters, "iterations", 8, 24)},
+                          {flat_ends, flat ? 1u : 0u}};
+    return geometry;
+}
+
+std::vector<ParameterInfo> parameters() {
+    ParameterInfo splits = splits_parameter(0);
+    splits.low = 0;
+    splits.help += " (0: 4 robust, 1 published; robust raises it where a piece would turn over 90 degrees)";
+    return {{.name = "variant",
+             .help = "published: as in the paper; robust: exact frame, pieces, safeguarded steps",
+             .default_value = "robust",
+             .choices = {"published", "robust"}},
+            {.name = "iterations",
+             .help = "cones tried from each end of a leaf (0: 24 robust, 8 published)",
+             .default_value = "0",
+             .low = 0,
+             .high = 40,
+             .integer = true},
+            std::move(splits)};
+}
+
+}  // namespace
+
+Primitive prhi() {
+    return {
+        .name = "prhi",
+        .summary = "phantom ray-hair intersector: swept discs on the cubic itself, by a few cones",
+        .parameters = parameters(),
+        .caps = {Caps::open, Caps::flat},
+        .surface = surface,
+        .build = build,
+        .shaders = {.intersection = "prhi.rint", .closest_hit = "curve.rchit", .any_hit = ""},
+        .cpu = {intersect<float>, intersect<double>},
+    };
+}
+
+}  // namespace strandlab
