@@ -7,6 +7,7 @@
 #include "primitives/primitive.h"
 #include "scene/hits.h"
 #include "scene/rays.h"
+#include "scene/scene.h"
 #include "shaders/shared/trace_parameters.h"
 
 #include <glm/glm.hpp>
@@ -21,12 +22,6 @@ namespace strandlab {
 struct SceneModel {
     Geometry geometry;
     uint32_t first_curve = 0;
-};
-
-/// One instance of a model.
-struct SceneInstance {
-    uint32_t model = 0;
-    glm::mat4x3 world_from_object{1.0f};
 };
 
 /// How a scene is put on the device.

@@ -1,0 +1,72 @@
+#include "scene/scene.h"
+
+#include "base/hash.h"
+
+#include <algorithm>
+
+namespace strandlab {
+
+uint32_t Scene::first_curve(uint32_t model) const {
+    size_t first = 0;
+    for (uint32_t i = 0; i < model; ++i) first += models[i].curves.size();
+    return static_cast<uint32_t>(first);
+}
+
+size_t Scene::curve_count() const {
+    size_t count = 0;
+    for (const Curves& model : models) count += model.curves.size();
+    return count;
+}
+
+size_t Scene::strand_count() const {
+    size_t count = 0;
+    for (const Curves& model : models) count += model.strands.size();
+    return count;
+}
+
+bool Scene::is_plain() const {
+    return models.size() == 1 && instances.size() == 1 && instances[0].world_from_object == glm::mat4x3(1.0f);
+}
+
+Scene scene_of(std::string name, Curves curves) {
+    Scene scene;
+    scene.name = std::move(name);
+    scene.models.push_back(std::move(curves));
+    scene.instances.push_back({});
+    return scene;
+}
+
+Curves all_curves(const Scene& scene) {
+    if (scene.models.size() == 1) return scene.models.front();
+    Curves all;
+    for (const Curves& model : scene.models) {
+        const auto first = static_cast<uint32_t>(all.curves.size());
+        all.curves.insert(all.curves.end(), model.curves.begin(), model.curves.end());
+        for (const StrandRange& strand : model.strands) all.strands.push_back({first + strand.first, strand.count});
+    }
+    return all;
+}
+
+std::vector<glm::vec4> world_points(const Scene& scene) {
+    std::vector<glm::vec4> points;
+    for (const SceneInstance& instance : scene.instances) {
+        const glm::mat4x3& m = instance.world_from_object;
+        const float stretch = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+        for (const Curve& curve : scene.models[instance.model].curves)
+            for (const glm::vec4& point : curve)
+                points.emplace_back(m * glm::vec4(glm::vec3(point), 1.0f), point.w * stretch);
+    }
+    return points;
+}
+
+uint64_t hash(const Scene& scene) {
+    Hash sum;
+    for (const Curves& model : scene.models) sum.add_number(hash(model));
+    for (const SceneInstance& instance : scene.instances) {
+        sum.add_number(instance.model);
+        sum.add(&instance.world_from_object, sizeof instance.world_from_object);
+    }
+    return sum.value();
+}
+
+}  // namespace strandlab
