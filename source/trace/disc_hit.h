@@ -1,0 +1,145 @@
+// First front-facing hit of a ray with discs swept along a curve.
+#pragma once
+
+#include "trace/swept_hit.h"
+
+namespace strandlab::oracle {
+
+/// Whether the point at depth z of the ray lies in one of the discs: (p - C) . C' = 0 has a root (degree 5)
+/// with |p - C| <= r, or p lies in the half ball of a round end.
+template <class Real>
+bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
+    Swept<Real> at = s;
+    for (Real& c : at.z) c -= z;
+    const auto excess = [&](Real u) {
+        const Real x = evaluate(at.x, u), y = evaluate(at.y, u), w = evaluate(at.z, u);
+        return evaluate(at.r, u) - std::sqrt(x * x + y * y + w * w);
+    };
+    if (ends.caps == Caps::round)
+        for (const int end : {0, 1}) {
+            if (!(end == 0 ? ends.begins_strand : ends.ends_strand)) continue;
+            const SweptPoint<Real> p(at, Real(end));
+            const Real beyond = -p.centre.x * p.tangent.x - p.centre.y * p.tangent.y - p.centre.z * p.tangent.z;
+            if (excess(Real(end)) >= 0 && (end == 0 ? beyond <= 0 : beyond >= 0)) return true;
+        }
+    struct Part {
+        Swept<Real> s;
+        Real a, b;
+        int depth;
+    };
+    constexpr int max_depth = 40;
+    std::array<Part, max_depth + 2> stack;
+    int size = 0;
+    stack[size++] = {at, 0, 1, 0};
+    while (size > 0) {
+        const Part part = stack[--size];
+        Scaled<Real, 6> ball = inside_coefficients(part.s.x, part.s.y, part.s.r);
+        add_product<Real, 3, 3>(ball, scaled(part.s.z), scaled(part.s.z), Real(-1));
+        if (*std::max_element(ball.begin(), ball.end()) < 0) continue;
+        Scaled<Real, 5> along{};
+        add_product<Real, 3, 2>(along, scaled(part.s.x), scaled_slope(part.s.x), Real(1));
+        add_product<Real, 3, 2>(along, scaled(part.s.y), scaled_slope(part.s.y), Real(1));
+        add_product<Real, 3, 2>(along, scaled(part.s.z), scaled_slope(part.s.z), Real(1));
+        if (along.front() == 0 && excess(part.a) >= 0 && SweptPoint<Real>(at, part.a).regular) return true;
+        if (along.back() == 0 && excess(part.b) >= 0 && SweptPoint<Real>(at, part.b).regular) return true;
+        const int variations = sign_variations(along);
+        if (variations == 0) continue;
+        if (variations == 1) {
+            const auto f = [&](Real u) {
+                return evaluate(at.x, u) * slope(at.x, u) + evaluate(at.y, u) * slope(at.y, u) +
+                       evaluate(at.z, u) * slope(at.z, u);
+            };
+            if (excess(bracketed_root(f, part.a, part.b, leading_sign(along))) >= 0) return true;
+            continue;
+        }
+        const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
+        if (part.depth >= max_depth || !(middle > part.a && middle < part.b)) {
+            if (excess(middle) >= 0) return true;
+            continue;
+        }
+        Part& right = stack[size++];
+        Part left;
+        split(part.s.x, Real(split_ratio), left.s.x, right.s.x);
+        split(part.s.y, Real(split_ratio), left.s.y, right.s.y);
+        split(part.s.z, Real(split_ratio), left.s.z, right.s.z);
+        split(part.s.r, Real(split_ratio), left.s.r, right.s.r);
+        left.a = part.a;
+        left.b = right.a = middle;
+        right.b = part.b;
+        left.depth = right.depth = part.depth + 1;
+        stack[size++] = left;
+    }
+    return false;
+}
+
+/// Outward normal of the swept discs at p = C + arm: the cross product of the derivatives along and
+/// around the tube, (|C'| - r e . T_u) e - r' T with e = arm / r and T_u = (C'' - T (T . C'')) / |C'|.
+template <class Real>
+glm::vec<3, Real> disc_normal(const Swept<Real>& s, const SweptPoint<Real>& p, Real u, const glm::vec<3, Real>& arm) {
+    using Vec3 = glm::vec<3, Real>;
+    const Vec3 e = glm::normalize(arm);
+    if (!p.regular) return e;
+    const Vec3 second(curvature(s.x, u), curvature(s.y, u), curvature(s.z, u));
+    const Vec3 turn = (second - p.tangent * glm::dot(p.tangent, second)) / p.speed;
+    const Real dr = slope(s.r, u);
+    const Vec3 normal = (p.speed - p.radius * glm::dot(e, turn)) * e - dr * p.tangent;
+    const Vec3 cone = e - (dr / p.speed) * p.tangent;
+    const Real length = glm::length(normal);
+    if (!(length > 0)) return glm::normalize(cone);
+    return glm::dot(normal, cone) < 0 ? -normal / length : normal / length;
+}
+
+/// Offers the point at parameter u and depth centre.z + offset if it is on the surface and faces the ray.
+/// Facing is that of the tangent cone, e - (r' / |C'|) T, whose sign does not flip on inner sheets.
+template <class Real>
+void offer_disc_point(const Swept<Real>& s, Real u, Real offset, Real z_min, SweptResult<Real>& result) {
+    const SweptPoint<Real> p(s, u);
+    if (!(p.radius > 0)) return;
+    if (!p.regular) {
+        // H vanishes with C' whatever the ray; the limit tangent tells whether the point is real.
+        const bool has_plane = glm::length(p.tangent) > 0;
+        if (!has_plane || !(std::abs(p.off_plane(offset)) <= Real(1e-6) * p.radius)) return;
+    }
+    const Real slant = p.regular ? slope(s.r, u) / p.speed * p.tangent.z : Real(0);
+    if (!(offset / p.radius - slant < 0)) return;
+    const Real z = p.centre.z + offset;
+    if (!(z >= z_min)) return;
+    result.offer({z, u, p.radius, disc_normal(s, p, u, p.arm(offset)), false});
+}
+
+/// Half balls at strand ends, on the far side of the end planes.
+template <class Real>
+void offer_round_ends(const Swept<Real>& s, const PieceEnds& ends, Real z_min, SweptResult<Real>& result) {
+    for (const int end : {0, 1}) {
+        if (!(end == 0 ? ends.begins_strand : ends.ends_strand)) continue;
+        const SweptPoint<Real> p(s, Real(end));
+        if (!(s.inside(Real(end)) >= 0) || !(p.radius > 0)) continue;
+        const Real offset = -s.half_chord(Real(end)), beyond = p.off_plane(offset), z = p.centre.z + offset;
+        if (!(end == 0 ? beyond <= 0 : beyond >= 0) || !(z >= z_min)) continue;
+        result.offer({z, Real(end), p.radius, glm::normalize(p.arm(offset)), true});
+    }
+}
+
+/// Swept discs, open unless caps says otherwise.
+template <class Real>
+SweptResult<Real> hit_discs(const Swept<Real>& s, const PieceEnds& ends, Real z_min) {
+    SweptResult<Real> result;
+    for (const Interval<Real>& component : find_components(s)) {
+        const SurfaceRoots<Real> isolated(s, component, 0);
+        for (const Real u : isolated.roots()) {
+            // H is the product of the residuals of entry and exit; where both vanish the ray crosses the
+            // curve at a right angle and both points count.
+            const Real chord = s.half_chord(u), h = s.drift(u, 0), dz = slope(s.z, u);
+            const Real entry = std::abs(h + dz * chord), exit = std::abs(h - dz * chord);
+            const Real both = Real(1e-9) * std::max(SweptPoint<Real>(s, u).speed * evaluate(s.r, u), std::abs(h));
+            if (entry <= exit || entry <= both) offer_disc_point(s, u, -chord, z_min, result);
+            if (exit <= entry || exit <= both) offer_disc_point(s, u, chord, z_min, result);
+        }
+    }
+    if (ends.caps == Caps::round) offer_round_ends(s, ends, z_min, result);
+    if (ends.caps == Caps::flat) offer_flat_caps(s, ends, z_min, result);
+    result.starts_inside = discs_contain(s, ends, z_min);
+    return result;
+}
+
+}  // namespace strandlab::oracle
