@@ -12,11 +12,11 @@ bool same_place(const glm::vec4& a, const glm::vec4& b) {
 
 /// Direction that a frame between two chords is normal to; each may be 0 (there is none).
 glm::dvec3 tangent_between(const glm::dvec3& incoming, const glm::dvec3& outgoing) {
+    const glm::dvec3 none(0);
+    if (incoming == none && outgoing == none) return {0, 0, 1};  // the strand is one point
     const glm::dvec3 sum = incoming + outgoing;
-    const double size = glm::length(sum);
-    if (size >= 1) return sum / size;  // a turn of at most 120 degrees, or an end
-    if (glm::length(incoming) > 0) return incoming;
-    return {0, 0, 1};  // the strand is one point
+    const bool turns_little = glm::dot(incoming, outgoing) >= -0.5;  // by 120 degrees or less
+    return outgoing != none && (incoming == none || turns_little) ? glm::normalize(sum) : incoming;
 }
 
 /// Any frame normal to a unit tangent, turned by roll (basis of Duff et al. 2017).

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <algorithm>
+
 #if STRANDLAB_EMBREE
 #include "base/parallel.h"
 
@@ -11,7 +13,6 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>

@@ -48,8 +48,9 @@ EmbreeDefinition embree_definition(const Surface& surface);
 ///   origin, over 99.9 % agreement on clear hits and misses. Thinner (1e-4: 6 % false misses and 4 %
 ///   false hits; 1e-5: 40 %), or with the curve 1e4 lengths from the world origin (2 % and 6 %), it is no
 ///   reference, nor where the radius exceeds the radius of curvature. Ends are open.
-/// - Round linear: p99 3e-2 radii at a hundredth of the length, 1 % misses at 1e-3, a third at 1e-4. Ends
-///   are always round. Never the judge of round cones; a gross disagreement is worth a look, no more.
+/// - Round linear: p99 3e-2 radii at a hundredth of the length, 1 % misses at 1e-3, a third at 1e-4.
+///   Rays within about 2e-4 radians of a piece's axis are missed (3.13). Ends are always round. Never the
+///   judge of round cones; a gross disagreement is worth a look, no more.
 /// - Rays that are invalid (is_valid) miss. Hits count for tmin <= t <= tmax.
 class EmbreeScene {
   public:
