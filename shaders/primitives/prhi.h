@@ -149,30 +149,40 @@ FUNCTION real3 prhi_normal(PrhiPoint p, real s, bool robust) {
     return normalize(normalize(e) - tangent * slope);
 }
 
-// One Newton step on the tube itself, w - s z' = 0 with s^2 = r^2 - x^2 - y^2, and the hit there. False when
-// that is not a surface that faces the ray.
+// r^2 - x^2 - y^2, positive where the ray pierces the ball of that point.
+FUNCTION real prhi_inside(real4 c) {
+    real distance = sqrt(c.x * c.x + c.y * c.y);
+    return (c.w - distance) * (c.w + distance);
+}
+
+// The hit on the tube itself: the cone's own step, then one of Newton's on w - s z' = 0, where
+// s^2 = r^2 - x^2 - y^2. False when the surface there faces away from the ray.
 FUNCTION bool prhi_polish(PrhiCubic cubic, PrhiPoint p, PrhiStep found, real v, OUT(PrhiHit) hit) {
-    real distance = sqrt(p.c.x * p.c.x + p.c.y * p.c.y);
-    real depth = sqrt(max((p.c.w - distance) * (p.c.w + distance), real(0)));
-    real s = found.s > real(0) ? depth : -depth;
-    real w = p.c.x * p.d.x + p.c.y * p.d.y;
-    real slope = p.d.x * p.d.x + p.d.y * p.d.y + p.c.x * p.second.x + p.c.y * p.second.y - s * p.second.z -
-                 p.d.z * (p.c.w * p.d.w - w) / s;
-    real step = (s * p.d.z - w) / slope;
-    // Near the silhouette the branches meet and Newton is no better than the cone.
-    if (!(abs(step) <= real(4) * prhi_tolerance())) step = found.dv;
-    real better_v = clamp(v + step, real(0), real(1));
+    // The depth of the entry as the next point will see it; on thin hair the step is many radii long.
+    real side = found.s > found.dv * p.d.z ? real(1) : real(-1);
+    // Possibly beyond the piece by the tolerance: neighbours overlap rather than leave a crack.
+    real better_v = v + found.dv;
     PrhiPoint better = prhi_point(cubic, better_v);
-    distance = sqrt(better.c.x * better.c.x + better.c.y * better.c.y);
-    real inside = (better.c.w - distance) * (better.c.w + distance);
-    hit.v = v;
-    hit.z = p.c.z + found.s;
+    real s = side * sqrt(max(prhi_inside(better.c), real(0)));
+    real w = better.c.x * better.d.x + better.c.y * better.d.y;
+    real slope = better.d.x * better.d.x + better.d.y * better.d.y + better.c.x * better.second.x +
+                 better.c.y * better.second.y - s * better.second.z - better.d.z * (better.c.w * better.d.w - w) / s;
+    real step = (s * better.d.z - w) / slope;
+    // So short that the derivative carries the point along. Longer ones (or NaN) come from the silhouette,
+    // where entry and exit meet and Newton has no say.
+    if (step * step * dot(real3(better.d), real3(better.d)) <= real(0.01) * s * s) {
+        better_v = better_v + step;
+        better.c = better.c + better.d * step;
+    }
+    real inside = prhi_inside(better.c);
     if (inside >= real(0)) {
-        s = found.s > real(0) ? sqrt(inside) : -sqrt(inside);
+        s = side * sqrt(inside);
         hit.v = better_v;
         hit.z = better.c.z + s;
         hit.normal = prhi_normal(better, s, true);
     } else {
+        hit.v = v;
+        hit.z = p.c.z + found.s;
         hit.normal = prhi_normal(p, found.s, true);
     }
     return hit.normal.z <= real(0);
@@ -321,7 +331,7 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     }
     if (!found) return false;
     t = ray_parameter(frame, hit.z);
-    u = (real(piece) + hit.v) / real(pieces);
+    u = (real(piece) + clamp(hit.v, real(0), real(1))) / real(pieces);
     normal = from_frame(frame, hit.normal);
     return t >= tmin && t < tmax;
 }

@@ -88,6 +88,13 @@ IntersectorErrors errors_of(const std::string& label, const std::string& name,
         ++(answer.hit ? errors.hits : errors.misses);
         if (!results[i].found) {
             errors.false_misses += answer.hit.has_value();
+            if (answer.hit && std::getenv("DEBUG_MISS")) {
+                const CurveD c = to_double(pair.curve);
+                fmt::print("MISS {} {} u {:.5f} r {:.4f} r' {:.4f} |C'| {:.5f} e0 {:.4f} e1 {:.4f} e2 {:.4f} chord {:.4f} facing {:.4f} curv {:.4f}\n", name, i, answer.hit->u,
+                           answer.hit->radius, derivative_at(c, answer.hit->u).w,
+                           glm::length(glm::dvec3(derivative_at(c, answer.hit->u))), glm::length(glm::dvec3(c[1]-c[0])), glm::length(glm::dvec3(c[2]-c[1])), glm::length(glm::dvec3(c[3]-c[2])), glm::length(glm::dvec3(c[3]-c[0])), glm::dot(answer.hit->normal, glm::normalize(glm::dvec3(pair.ray.direction))),
+                           glm::length(glm::cross(glm::dvec3(derivative_at(c, answer.hit->u)),glm::dvec3(second_derivative_at(c, answer.hit->u))))/std::pow(glm::length(glm::dvec3(derivative_at(c, answer.hit->u))),3));
+            }
         } else if (!answer.hit) {
             ++errors.false_hits;
         } else {
@@ -102,8 +109,7 @@ IntersectorErrors errors_of(const std::string& label, const std::string& name,
 }
 
 TEST(Prhi, Table) {
-    for (const std::string label : {"prhi:variant=published", "prhi:variant=published,iterations=40", "prhi",
-                                    "prhi:splits=1", "prhi:splits=8"}) {
+    for (const char* label : {"prhi"}) {
         fmt::print("\n{}\n{}", label, IntersectorErrors::header());
         for (const RayFamily& f : testing::ray_families())
             fmt::print("{}", errors_of<float>(label, f.name).row(f.name));
