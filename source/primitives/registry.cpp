@@ -1,6 +1,7 @@
 // All primitives, one line each, in the order in which reports list them.
 #include "primitives/lss.h"
 #include "primitives/primitive.h"
+#include "primitives/rocaps.h"
 #include "primitives/prhi.h"
 
 #include <array>
@@ -10,6 +11,7 @@ namespace strandlab {
 std::span<const Primitive> primitives() {
     static const std::array all = {
         lss(),
+        rocaps(),
         prhi(),
     };
     return all;
