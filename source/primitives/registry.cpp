@@ -4,6 +4,7 @@
 #include "primitives/null_primitive.h"
 #include "primitives/prhi.h"
 #include "primitives/primitive.h"
+#include "primitives/rocaps.h"
 
 #include <array>
 
@@ -14,6 +15,7 @@ std::span<const Primitive> primitives() {
         dots(),
         lss(),
         prhi(),
+        rocaps(),
         null_primitive(),
     };
     return all;
