@@ -1,7 +1,7 @@
 // How primitives cut curves into pieces: equal parameter intervals, by count or by tolerance.
 #pragma once
 
-#include "primitives/parameters.h"
+#include "base/parameters.h"
 #include "scene/geometry.h"
 #include "strands/bezier.h"
 

@@ -40,14 +40,9 @@ PrimitiveChoice parse_primitive(std::string_view text, std::string_view caps) {
     const size_t colon = text.find(':');
     const Primitive& primitive = primitive_named(text.substr(0, colon));
     Parameters parameters(primitive.parameters);
-    if (colon != std::string_view::npos) {
-        for (const std::string_view pair : split(text.substr(colon + 1), ',')) {
-            const size_t equals = pair.find('=');
-            if (equals == std::string_view::npos)
-                fail(ExitCode::usage, "--primitive {}: '{}' is not key=value", text, pair);
-            parameters.set(primitive.name, primitive.parameters, pair.substr(0, equals), pair.substr(equals + 1));
-        }
-    }
+    if (colon != std::string_view::npos)
+        parameters.set_all(fmt::format("--primitive {}", primitive.name), primitive.parameters,
+                           text.substr(colon + 1));
     return {&primitive, {std::move(parameters), choose_caps(primitive, caps)}};
 }
 

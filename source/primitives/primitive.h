@@ -2,7 +2,7 @@
 // handle. Adding one: tools/new_primitive NAME, fill in what it made, one line in registry.cpp.
 #pragma once
 
-#include "primitives/parameters.h"
+#include "base/parameters.h"
 #include "scene/caps.h"
 #include "scene/geometry.h"
 #include "scene/rays.h"

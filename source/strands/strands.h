@@ -34,14 +34,38 @@ struct CurveOptions {
 
 /// What was passed over on the way, for one warning line each.
 struct ImportReport {
-    size_t short_strands = 0;     // strands with fewer than two distinct points
-    size_t repeated_points = 0;   // consecutive points closer than float32 can tell apart
-    size_t negative_radii = 0;    // set to 0
+    size_t short_strands = 0;    // strands with fewer than two distinct points
+    size_t repeated_points = 0;  // consecutive points that are equal in float32
+    size_t negative_radii = 0;   // set to 0
+    size_t gaps = 0;             // neighbours in a strand of a curve file that do not share an end point
     bool radii_from_options = false;
 };
 
-/// Makes the curves of all strands (Catmull-Rom with centripetal or uniform knots, line, or uniform
-/// B-spline; intersectors.md section 8). A strand with fewer than two distinct points gives no curve.
+/// One line for everything in the report that the user should know; none when all is well.
+std::vector<std::string> warnings(const ImportReport& report, const CurveOptions& options);
+
+/// Largest coordinate and radius that is accepted: squares and fourth powers of differences, which every
+/// intersector forms, must stay finite.
+constexpr float largest_coordinate = 1e9f;
+
+/// Whether all of x, y, z are finite and within largest_coordinate; a radius likewise, 0 and negative
+/// ("none") included.
+bool is_usable(const glm::vec4& point);
+
+/// Makes the curves of all strands, one between every two neighbouring distinct points: cubic
+/// Catmull-Rom with centripetal knots (Yuksel, Schaefer and Keyser 2011, "Parameterization and
+/// applications of Catmull-Rom curves") or uniform ones, straight lines, or a uniform B-spline that has
+/// the points as control points (its curves pass near them, and through the first and the last). Ends
+/// are extended by the reflected point 2 P0 - P1. The radius is interpolated like a fourth coordinate and
+/// kept within [0, twice the largest radius of the points involved]. Two points give the line with evenly
+/// spaced control points. A strand with fewer than two distinct points gives no curve and no strand.
+/// Where a point has no radius, it is interpolated from root to tip by point index. Throws Error
+/// (bad_input) naming strand and point for numbers that are not usable, or above 2^32 - 1 curves, and
+/// Error (usage) for options out of range.
 Curves make_curves(const Strands& strands, const CurveOptions& options, ImportReport& report);
+
+/// Applies unit scale and override_radii to curves that were not made by make_curves (curve files).
+/// Throws as make_curves does.
+void apply_options(Curves& curves, const CurveOptions& options, ImportReport& report);
 
 }  // namespace strandlab

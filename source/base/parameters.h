@@ -1,6 +1,8 @@
-// The options of a primitive, NAME:key=value,..., described once: parser, help and report read the table.
+// Options of the form key=value,..., of primitives and of generators, described once: parser, help and report
+// read the table.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -18,16 +20,19 @@ struct ParameterInfo {
     std::vector<std::string> choices;  // when not empty, the value is one of these words
 };
 
-/// Values of a primitive's parameters, all present and checked.
+/// Values of all parameters of a table, all present and checked.
 class Parameters {
   public:
     /// Defaults of a table.
     explicit Parameters(const std::vector<ParameterInfo>& table);
 
-    /// Sets a value; throws Error (usage) naming primitive, key and value, with the nearest key or the
-    /// allowed range.
-    void set(std::string_view primitive, const std::vector<ParameterInfo>& table, std::string_view key,
+    /// Sets a value; throws Error (usage) that begins with context (such as "--primitive lss") and names
+    /// key and value, with the nearest key or the allowed range.
+    void set(std::string_view context, const std::vector<ParameterInfo>& table, std::string_view key,
              std::string_view value);
+
+    /// Sets every key=value of a text that separates them by commas; throws as set does.
+    void set_all(std::string_view context, const std::vector<ParameterInfo>& table, std::string_view text);
 
     double number(const std::string& name) const;
     uint32_t integer(const std::string& name) const { return static_cast<uint32_t>(number(name)); }

@@ -1,0 +1,47 @@
+// Files written whole or not at all, read whole, or grown by one line.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace strandlab {
+
+/// All bytes of a file. Throws Error (bad_input) with path and reason.
+std::string read_file(const std::string& path);
+
+/// Writes a new file beside the wanted one and puts it in its place on commit (fsync, then rename), so
+/// that nobody ever sees half a file: without commit, or after an error, the old file is untouched and
+/// nothing is left behind. Symbolic links are followed; devices and pipes are written directly. Every
+/// error (no such folder, no permission, disk full) throws Error (bad_input) with path and reason.
+class FileWriter {
+  public:
+    explicit FileWriter(const std::string& path);
+    ~FileWriter();
+    FileWriter(const FileWriter&) = delete;
+    FileWriter& operator=(const FileWriter&) = delete;
+
+    void write(const void* data, size_t bytes);
+    void write(std::string_view text) { write(text.data(), text.size()); }
+
+    /// Makes what was written the file. Call once, last.
+    void commit();
+
+  private:
+    [[noreturn]] void fail_to_write(int error) const;
+
+    std::string path_;       // as the caller named it
+    std::string target_;     // behind symbolic links
+    std::string temporary_;  // empty when writing to a device or pipe, or when done
+    int descriptor_ = -1;
+};
+
+/// Writes a whole file with FileWriter.
+void write_file(const std::string& path, std::string_view bytes);
+
+/// Appends one line (the newline is added) with a single write under a lock, so that rows of several
+/// processes never mix; a last line that lacks its newline is completed first. Creates the file when
+/// missing. On an error the file is as before.
+void append_line(const std::string& path, std::string_view line);
+
+}  // namespace strandlab
