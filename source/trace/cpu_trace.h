@@ -1,0 +1,46 @@
+// Whole scenes through the C++ versions of the primitives' own intersectors.
+#pragma once
+
+#include "primitives/primitive.h"
+#include "scene/geometry.h"
+#include "scene/hits.h"
+#include "scene/rays.h"
+#include "trace/bvh.h"
+
+#include <span>
+
+namespace strandlab {
+
+/// single: what the GPU computes; precise: the same text in double.
+enum class Precision { single, precise };
+
+/// closest: the nearest hit; any: the first hit that traversal comes upon (shadow rays).
+enum class TraceMode { closest, any };
+
+/// One geometry with its hierarchy, traced by a primitive's C++ kernel. The boxes are padded as a GPU
+/// builder pads them, for ray origins up to `extent` from the world's origin.
+class CpuTracer {
+  public:
+    /// Keeps references to geometry and primitive. Throws Error (usage) when the primitive has no C++
+    /// kernel of that precision.
+    CpuTracer(const Geometry& geometry, const Primitive& primitive, Precision precision, float extent);
+
+    /// Result of one ray; its normal, if asked for, is zero for a miss. Hits with the same t go to the lower
+    /// leaf. Invalid rays miss.
+    Hit trace(const Ray& ray, TraceMode mode = TraceMode::closest, glm::vec3* normal = nullptr) const;
+
+  private:
+    template <class Real, class Intersect>
+    Hit trace_with(Intersect intersect, const Ray& ray, TraceMode mode, glm::vec3* normal) const;
+
+    const Geometry& geometry_;
+    const Primitive& primitive_;
+    Precision precision_;
+    Bvh bvh_;
+};
+
+/// All rays, in parallel; normals only when wanted.
+Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays, Precision precision,
+               TraceMode mode = TraceMode::closest, bool wants_normals = false);
+
+}  // namespace strandlab
