@@ -26,7 +26,7 @@ struct PrhiPoint {
 struct PrhiStep {
     real dv;  // from v to the base plane of the entry, in parameters
     real s;   // depth of the entry (or closest approach), counted from C(v)
-    bool enters;
+    bool enters;  // on the outside of the cone, not a phantom
 };
 
 struct PrhiHit {
@@ -128,7 +128,10 @@ FUNCTION PrhiStep prhi_robust_step(real4 c, real4 d) {
     } else {
         result.s = (b - root) / lateral;
     }
-    result.dv = (result.s * t.z - w) * inv_speed;
+    real along = result.s * t.z - w;
+    result.dv = along * inv_speed;
+    // Counted from the base plane of the entry, its depth tells the outside from the inside.
+    result.enters = result.enters && result.s - along * t.z <= tilt;
     return result;
 }
 
@@ -156,8 +159,9 @@ FUNCTION real prhi_inside(real4 c) {
 }
 
 // The hit on the tube itself: the cone's own step, then one of Newton's on w - s z' = 0, where
-// s^2 = r^2 - x^2 - y^2. False when the surface there faces away from the ray.
-FUNCTION bool prhi_polish(PrhiCubic cubic, PrhiPoint p, PrhiStep found, real v, OUT(PrhiHit) hit) {
+// s^2 = r^2 - x^2 - y^2.
+FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiStep found) {
+    PrhiPoint p = prhi_point(cubic, v);
     // The depth of the entry as the next point will see it; on thin hair the step is many radii long.
     real side = found.s > found.dv * p.d.z ? real(1) : real(-1);
     // Possibly beyond the piece by the tolerance: neighbours overlap rather than leave a crack.
@@ -175,6 +179,7 @@ FUNCTION bool prhi_polish(PrhiCubic cubic, PrhiPoint p, PrhiStep found, real v, 
         better.c = better.c + better.d * step;
     }
     real inside = prhi_inside(better.c);
+    PrhiHit hit;
     if (inside >= real(0)) {
         s = side * sqrt(inside);
         hit.v = better_v;
@@ -185,23 +190,22 @@ FUNCTION bool prhi_polish(PrhiCubic cubic, PrhiPoint p, PrhiStep found, real v, 
         hit.z = p.c.z + found.s;
         hit.normal = prhi_normal(p, found.s, true);
     }
-    return hit.normal.z <= real(0);
+    return hit;
 }
 
 // Iterates from the end that is nearer along the ray and, when that fails, from the other. Hits in front of
 // z_min are failures. low and high bound v.
-FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
-                        OUT(PrhiHit) hit) {
+FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
+                          OUT(real) v, OUT(PrhiStep) found) {
     bool from_low = cubic.p3.z > cubic.p0.z;
     bool second_start = false;
-    real v = from_low ? low : high;
+    v = from_low ? low : high;
     real old_v = v;
     real old_dv = real(0);
     uint i = 0u;
     // Both starts share one loop, so that rays in lock-step stay together.
     for (uint count = 0u; count < 2u * iterations; ++count) {
         PrhiPoint p = prhi_point(cubic, v);
-        PrhiStep found;
         if (robust) {
             found = prhi_robust_step(p.c, p.d);
             // 0/0: step over it.
@@ -212,27 +216,13 @@ FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint i
         } else {
             found = prhi_published_step(p.c, p.d);
         }
-        bool failed = false;
-        if (abs(found.dv) < prhi_tolerance()) {
-            if (found.enters) {
-                bool facing = true;
-                if (robust) {
-                    facing = prhi_polish(cubic, p, found, v, hit);
-                } else {
-                    hit.z = p.c.z + found.s;
-                    hit.v = v;
-                    hit.normal = prhi_normal(p, found.s, false);
-                }
-                if (facing && hit.z >= z_min) return true;
-                failed = true;
-            } else {
-                failed = robust;
-            }
-        }
+        bool converged = abs(found.dv) < prhi_tolerance();
+        if (converged && found.enters && p.c.z + found.s >= z_min) return true;
         real dv = clamp(found.dv, real(-0.5), real(0.5));
         real next = v + dv;
         if (old_dv * dv < real(0))
             next = (i & 3u) == 0u ? real(0.5) * (old_v + v) : (dv * old_v - old_dv * v) / (dv - old_dv);
+        bool failed = converged && (robust || found.enters);
         if (robust) {
             next = clamp(next, low, high);
             failed = failed || next == v;  // leaves the interval (or cannot move any more)
@@ -254,6 +244,23 @@ FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint i
         }
     }
     return false;
+}
+
+// The first entry through the side of the tube.
+FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
+                        OUT(PrhiHit) hit) {
+    real v;
+    PrhiStep found;
+    if (!prhi_search(cubic, low, high, z_min, iterations, robust, v, found)) return false;
+    if (robust) {
+        hit = prhi_polish(cubic, v, found);
+        return hit.normal.z <= real(0);
+    }
+    PrhiPoint p = prhi_point(cubic, v);
+    hit.z = p.c.z + found.s;
+    hit.v = v;
+    hit.normal = prhi_normal(p, found.s, false);
+    return hit.normal.z <= real(2);  // false where a tip of radius 0 has none
 }
 
 // The disc across a strand end, for a ray that enters there; outward is the direction out of the strand.
