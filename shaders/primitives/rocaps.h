@@ -64,7 +64,7 @@ FUNCTION real first_root_bound(real b0, real b1, real b2, real b3) {
     real c3 = ((b3 - b2) - (b2 - b1)) - ((b2 - b1) - (b1 - b0));
     real inflection = -c2 / (real(3) * c3);
     bool bends_back = inflection > real(0) && inflection < real(1);
-    if (c2 > real(0)) {
+    if (c2 > real(0) || (c2 == real(0) && c3 > real(0))) {  // convex at the start
         real end = bends_back ? inflection : real(1);
         real s = real(0);
         real value = b0;

@@ -4,8 +4,10 @@
 
 // A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at
 // u: Newton on g = h + z' sqrt(D) with h = x x' + y y' - r r' where g grows about as on the tangent cone, else
-// the exact minimum of the tangent cone; outside the tube towards the ray line.
-FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
+// the exact minimum of the tangent cone; outside the tube towards the ray line. Near the minimum (`near`, or
+// the last step `previous` went beyond it) g may also grow faster, as it does where the tube is thicker
+// than its bend.
+FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside, bool near, real previous) {
     real h = p.x * d.x + p.y * d.y - p.w * d.w;
     real lateral = d.x * d.x + d.y * d.y;
     real a = d.w * d.w - lateral;
@@ -15,7 +17,8 @@ FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
         real depth = sqrt(inside);
         real g = h + d.z * depth;
         real g_slope = h_slope + depth * dd.z - d.z * h / depth;
-        if (g_slope > real(0.5) * e && g_slope < real(2) * e) return -g / g_slope;
+        bool steep = near || g * previous > real(0);
+        if (g_slope > real(0.5) * e && (steep || g_slope < real(2) * e)) return -g / g_slope;
     }
     real along_x = p.w * d.x - d.w * p.x;
     real along_y = p.w * d.y - d.w * p.y;
@@ -49,7 +52,7 @@ FUNCTION void refine_entry(FrameCubic c, real low, real high, real longest, real
                 best_u = u;
             }
         }
-        real step = verified_step(p, d, dd, inside);
+        real step = verified_step(p, d, dd, inside, false, previous);
         if (step > longest) step = longest;
         if (step < -longest) step = -longest;
         if (step * previous < real(0) && abs(step) > real(0.5) * abs(previous)) step = step * real(0.5);
@@ -139,6 +142,39 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
     return found;
 }
 
+// Takes an entry (z, u) of the search to the exact minimum of the depth near it, and its normal in the frame.
+// False when the minimum lies beyond the piece [a, b] at an end where the curve goes on: then it is the
+// entry of the neighbouring piece.
+FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, INOUT(real) z, INOUT(real) u,
+                           OUT(real3) normal) {
+    real margin = real(1e-4) * (b - a);
+    real3 best = real3(real(0));
+    real best_u = u;
+    for (int i = 0; i < 4; ++i) {
+        real4 d;
+        real4 dd;
+        real4 p = cubic_jet(c, u, d, dd);
+        real distance = axis_distance(p);
+        real inside = max((p.w - distance) * (p.w + distance), real(0));
+        real entry = p.z - sqrt(inside);
+        if (i > 0 && !(entry <= z)) break;
+        z = entry;
+        best_u = u;
+        best = real3(-p.x, -p.y, -sqrt(inside)) / p.w;
+        real step = verified_step(p, d, dd, inside, true, real(0));
+        if (!(abs(step) <= real(2) * search.step)) break;
+        real next = u + step;
+        if (next < a - margin && u <= a + margin && a > real(0)) return false;
+        if (next > b + margin && u >= b - margin && b < real(1)) return false;
+        next = min(max(next, search.a), search.b);
+        if (!(abs(next - u) > real(4) * real_epsilon)) break;
+        u = next;
+    }
+    u = best_u;
+    normal = best;
+    return z >= search.z_min && u >= a - margin && u <= b + margin;
+}
+
 // Whether the ray can meet the balls on [a, b], whose end points are p and q, at depths in [z_min, z_max]: the
 // chord, thick enough to hold what leaves it by at most `bulge`.
 FUNCTION bool near_chord(real4 p, real4 q, real bulge, real z_min, real z_max) {
@@ -198,6 +234,9 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     bool starts_near = search.z_min >= z_low && search.z_min <= z_high;
     if (crosses_a && (starts_near || search.open_start || search.open_end)) search.a = real(0);
     if (crosses_b && (starts_near || search.open_start || search.open_end)) search.b = real(1);
+    // A ball of radius 0 is no part of the solid: stop just before such a tip.
+    if (!(c.p0.w > real(0))) search.a = max(search.a, real(1.0 / 1048576.0));
+    if (!(c.p3.w > real(0))) search.b = min(search.b, real(1048575.0 / 1048576.0));
     real thinnest = min(p.w, q.w);
     if (search.b - search.a > width) {
         search.bend = largest_bend(c, search.a, search.b);
@@ -215,12 +254,9 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
 
     real z = z_max;
     if (!verified_search(c, search, z, u)) return false;
-    real margin = real(1e-4) * width;
-    if (!(u >= real(piece) / real(pieces) - margin && u <= real(piece + 1u) / real(pieces) + margin)) return false;
-    real4 centre = cubic_point(c, u);
-    real distance = axis_distance(centre);
-    real depth = sqrt(max((centre.w - distance) * (centre.w + distance), real(0)));
-    normal = from_frame(frame, real3(-centre.x, -centre.y, -depth) / centre.w);
+    if (!polish_entry(c, search, real(piece) / real(pieces), real(piece + 1u) / real(pieces), z, u, normal))
+        return false;
+    normal = from_frame(frame, normal);
     t = ray_parameter(frame, z);
     return t >= tmin && t < tmax;
 }

@@ -62,6 +62,8 @@ Judged judge(const RayCurvePair& pair, bool open) {
             (hit.is_hit() && !(std::abs(other.t - hit.t) * length < 0.3 * hit.radius)))
             judged.decisive = false;
     }
+    // At a tip of radius 0 nothing can be right or wrong.
+    if (hit.is_hit() && !(hit.radius > 1e-6 * pair.curve[0].w)) judged.decisive = false;
     if (open && hit.is_hit() && !(hit.u > 1e-3 && hit.u < 1 - 1e-3)) judged.decisive = false;
     return judged;
 }
@@ -99,6 +101,7 @@ HitStatistics measure(const std::vector<RayCurvePair>& pairs, const std::vector<
                 ++statistics.wrong_hits, fault = "wrong hit";
             } else {
                 statistics.depth_errors.push_back(error / reference.radius);
+                if (print && error > 1e-4 * reference.radius && error > 1e-4) fault = "inexact";
                 const glm::dvec3 n(hits[i].normal);
                 statistics.normal_errors.push_back(
                     std::atan2(glm::length(glm::cross(n, reference.normal)), glm::dot(n, reference.normal)));
