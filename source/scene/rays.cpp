@@ -28,6 +28,17 @@ size_t disable_invalid(std::vector<Ray>& rays) {
     return count;
 }
 
+float extent_of(const Rays& rays) {
+    float extent = 0;
+    for (const Ray& ray : rays.rays) {
+        const glm::vec3 size = glm::abs(ray.origin);
+        // Comparisons with NaN are false; what is infinite belongs to an invalid ray.
+        for (int axis = 0; axis < 3; ++axis)
+            if (size[axis] > extent && std::isfinite(size[axis])) extent = size[axis];
+    }
+    return extent;
+}
+
 uint64_t hash(const Rays& rays) { return Hash().add(std::span<const Ray>(rays.rays)).value(); }
 
 }  // namespace strandlab

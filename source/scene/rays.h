@@ -35,6 +35,9 @@ bool is_valid(const Ray& ray);
 /// returns how many there were, for the message that they count as misses.
 size_t disable_invalid(std::vector<Ray>& rays);
 
+/// Largest finite coordinate of any origin: what boxes are padded for.
+float extent_of(const Rays& rays);
+
 /// Content hash.
 uint64_t hash(const Rays& rays);
 

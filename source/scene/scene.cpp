@@ -59,6 +59,19 @@ std::vector<glm::vec4> world_points(const Scene& scene) {
     return points;
 }
 
+float object_extent(const Scene& scene, float extent) {
+    float largest = scene.is_plain() ? extent : 0;
+    for (const SceneInstance& instance : scene.instances) {
+        const glm::mat3 inverse = glm::inverse(glm::mat3(instance.world_from_object));
+        const glm::vec3 reach = extent + glm::abs(instance.world_from_object[3]);
+        for (int row = 0; row < 3; ++row) {
+            const glm::vec3 numbers(inverse[0][row], inverse[1][row], inverse[2][row]);
+            if (!scene.is_plain()) largest = std::max(largest, glm::dot(glm::abs(numbers), reach));
+        }
+    }
+    return largest;
+}
+
 uint64_t hash(const Scene& scene) {
     Hash sum;
     for (const Curves& model : scene.models) sum.add_number(hash(model));

@@ -42,6 +42,10 @@ Curves all_curves(const Scene& scene);
 /// stretch of the transform. For framing a camera.
 std::vector<glm::vec4> world_points(const Scene& scene);
 
+/// Largest coordinate that an origin within `extent` of the world's origin has in the object space of any
+/// instance: what that model's boxes are padded for.
+float object_extent(const Scene& scene, float extent);
+
 /// Content hash of models and instances.
 uint64_t hash(const Scene& scene);
 

@@ -1,0 +1,60 @@
+// Options that several commands share, and what they become.
+#pragma once
+
+#include "primitives/primitive.h"
+#include "scene/scene.h"
+#include "strands/strands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace strandlab {
+
+/// How models are read.
+struct ModelArguments {
+    std::vector<std::string> models;
+    std::string basis = "centripetal";
+    float radius = 35e-6f, radius_tip = 10e-6f, unit_scale = 1.0f;
+    bool has_radius = false;  // given on the command line: overrides the file's own
+
+    void add_to(CLI::App& app, bool required);
+    CurveOptions curve_options() const;
+
+  private:
+    CLI::Option* radius_option_ = nullptr;
+    CLI::Option* radius_tip_option_ = nullptr;
+};
+
+/// Which primitives, and how strand ends are closed.
+struct PrimitiveArguments {
+    std::vector<std::string> primitives;
+    std::string caps;
+
+    /// several: the option may be repeated.
+    void add_to(CLI::App& app, bool several);
+    /// The choices; with none given, every primitive but the diagnostic ones, with its defaults.
+    std::vector<PrimitiveChoice> choices() const;
+    /// The mode of the common reference: the one asked for, else round.
+    Caps scene_caps() const;
+};
+
+/// Which device.
+struct DeviceArguments {
+    std::string device;
+    bool validation = false;
+
+    void add_to(CLI::App& app);
+};
+
+/// The text below the options of a command that takes primitives: every primitive with its parameters.
+std::string primitive_help();
+
+/// "WIDTHxHEIGHT".
+struct Resolution {
+    uint32_t width = 0, height = 0;
+};
+Resolution parse_resolution(const std::string& text);
+
+}  // namespace strandlab

@@ -1,0 +1,93 @@
+#include "base/build_info.h"
+#include "base/cache.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "commands/command.h"
+
+#include <tbb/global_control.h>
+
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+namespace strandlab {
+namespace {
+
+std::vector<Command> all_commands() {
+    return {trace_command(), convert_command(), info_command()};
+}
+
+/// Options of every command.
+struct GlobalOptions {
+    uint32_t threads = 0;
+    bool quiet = false;
+    bool no_cache = false;
+};
+
+void add_global_options(CLI::App& app, GlobalOptions& options) {
+    app.add_option("--threads", options.threads, "processor threads to use (0: all); results do not depend on it")
+        ->default_str("0");
+    app.add_flag("--quiet", options.quiet, "no progress and no information on standard error");
+    app.add_flag("--no-cache", options.no_cache, "neither read nor write $XDG_CACHE_HOME/strandlab");
+}
+
+/// CLI11's own messages name the option; the nearest command is suggested for a mistyped one.
+[[noreturn]] void fail_usage(const CLI::ParseError& error, const std::vector<Command>& commands, int argc,
+                             char** argv) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.name);
+    std::string first = argc > 1 ? argv[1] : "";
+    const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
+    if (!is_command && !first.empty() && first[0] != '-') {
+        const auto guess = nearest(first, names);
+        fail(ExitCode::usage, "no command '{}'{}; there are {}", first,
+             guess ? fmt::format(", did you mean '{}'?", *guess) : "", list_of(names, "and"));
+    }
+    fail(ExitCode::usage, "{}; see strandlab {}--help", error.what(), is_command ? first + " " : "");
+}
+
+}  // namespace
+
+std::string version_text() {
+    const BuildInfo& info = build_info();
+    return fmt::format("{} (commit {}{}), {} {}", info.version, info.commit.substr(0, 8),
+                       info.modified ? ", modified" : "", info.compiler, info.build_type);
+}
+
+int run_command_line(int argc, char** argv) {
+    const std::vector<Command> commands = all_commands();
+    CLI::App app("Which primitive to ray-trace hair with, and what it costs in time, memory and error.", "strandlab");
+    app.set_version_flag("--version", fmt::format("strandlab {}", version_text()));
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.footer("Exit codes: 0 ok, 1 a threshold exceeded, 2 usage, 3 no device or feature,\n"
+               "4 device lost or out of memory, 5 bad input.\n"
+               "Help of a command, with examples: strandlab COMMAND --help");
+    GlobalOptions global;
+    add_global_options(app, global);
+    RunCommand run;
+    for (const Command& command : commands) {
+        CLI::App* sub = app.add_subcommand(command.name, command.summary);
+        sub->footer("Examples:\n" + command.examples);
+        RunCommand body = command.declare(*sub);
+        sub->callback([&run, body] { run = body; });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);  // help and version
+    } catch (const CLI::ParseError& error) {
+        fail_usage(error, commands, argc, argv);
+    }
+    set_quiet(global.quiet);
+    set_cache_enabled(!global.no_cache);
+    std::unique_ptr<tbb::global_control> limit;
+    if (global.threads > 0) {
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, global.threads);
+        setenv("LP_NUM_THREADS", std::to_string(global.threads).c_str(), 0);  // lavapipe's
+    }
+    return run();
+}
+
+}  // namespace strandlab

@@ -1,0 +1,129 @@
+// Loading scenes: one model, or a .json file of models and instances.
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "scene/scene.h"
+#include "strands/models.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace strandlab {
+namespace {
+
+using Json = nlohmann::json;
+
+Curves load_and_warn(const std::string& path, const CurveOptions& options, const std::string& strands_path) {
+    ImportReport report;
+    Curves curves = load_model(path, options, report, strands_path);
+    for (const std::string& line : warnings(report, options)) warn("{}: {}", path, line);
+    if (curves.curves.empty()) warn("{}: no curve in it: nothing can be hit", path);
+    return curves;
+}
+
+/// The scene file being read, for messages.
+struct SceneReader {
+    const std::string& path;
+
+    template <class... Args>
+    [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
+        fail(ExitCode::bad_input, "{}: {}", path, fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    void allow_keys(const Json& object, const std::string& where, std::initializer_list<const char*> keys) const {
+        if (!object.is_object()) reject("{} must be an object", where);
+        for (const auto& [key, value] : object.items())
+            if (std::find(keys.begin(), keys.end(), key) == keys.end()) reject("{}: unknown key '{}'", where, key);
+    }
+
+    float number(const Json& object, const std::string& where, const char* key, float fallback) const {
+        if (!object.contains(key)) return fallback;
+        const Json& value = object[key];
+        if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<float>()))
+            reject("{}: {} = {} is not a positive number", where, key, value.dump());
+        return value.get<float>();
+    }
+
+    Curves model(const Json& entry, const std::string& where, CurveOptions options) const {
+        allow_keys(entry, where, {"file", "strands", "radius", "radius_tip", "unit_scale"});
+        if (!entry.contains("file") || !entry["file"].is_string()) reject("{}: needs \"file\", a path", where);
+        options.override_radii |= entry.contains("radius") || entry.contains("radius_tip");
+        options.root_radius = number(entry, where, "radius", options.root_radius);
+        options.tip_radius = number(entry, where, "radius_tip", options.tip_radius);
+        options.unit_scale = number(entry, where, "unit_scale", options.unit_scale);
+        return load_and_warn(relative(entry["file"].get<std::string>()), options,
+                             entry.contains("strands") ? relative(entry["strands"].get<std::string>()) : "");
+    }
+
+    std::string relative(const std::string& file) const {
+        if (file.rfind("generate:", 0) == 0) return file;
+        return (std::filesystem::path(path).parent_path() / file).string();
+    }
+
+    SceneInstance instance(const Json& entry, const std::string& where, size_t models) const {
+        allow_keys(entry, where, {"model", "transform"});
+        SceneInstance instance;
+        if (!entry.contains("model") || !entry["model"].is_number_unsigned() || entry["model"].get<uint64_t>() >= models)
+            reject("{}: needs \"model\", a number from 0 to {}", where, models - 1);
+        instance.model = entry["model"].get<uint32_t>();
+        if (entry.contains("transform")) instance.world_from_object = transform(entry["transform"], where);
+        return instance;
+    }
+
+    glm::mat4x3 transform(const Json& numbers, const std::string& where) const {
+        if (!numbers.is_array() || numbers.size() != 12) reject("{}: transform needs 12 numbers, three rows of four", where);
+        glm::mat4x3 matrix;
+        for (int i = 0; i < 12; ++i) {
+            if (!numbers[i].is_number() || !std::isfinite(numbers[i].get<float>()))
+                reject("{}: transform[{}] = {} is not a finite number", where, i, numbers[i].dump());
+            matrix[i % 4][i / 4] = numbers[i].get<float>();
+        }
+        const double volume = glm::determinant(glm::dmat3(glm::mat3(matrix)));
+        if (!(std::abs(volume) > 0)) reject("{}: the transform flattens the model (determinant {:g})", where, volume);
+        return matrix;
+    }
+};
+
+Scene load_scene_file(const std::string& path, const CurveOptions& options) {
+    const SceneReader reader{path};
+    const Json file = [&] {
+        try {
+            return Json::parse(read_file(path));
+        } catch (const Json::exception& error) {
+            reader.reject("not JSON: {}", error.what());
+        }
+    }();
+    reader.allow_keys(file, "the scene", {"models", "instances"});
+    if (!file.contains("models") || !file["models"].is_array() || file["models"].empty())
+        reader.reject("needs \"models\", a list of at least one");
+    Scene scene;
+    scene.name = std::filesystem::path(path).stem().string();
+    for (const Json& entry : file["models"]) {
+        const std::string where = fmt::format("models[{}]", scene.models.size());
+        scene.models.push_back(reader.model(entry, where, options));
+    }
+    if (scene.curve_count() >= 0xFFFFFFFFull) reader.reject("{} curves are too many", scene.curve_count());
+    if (!file.contains("instances"))
+        for (uint32_t i = 0; i < scene.models.size(); ++i) scene.instances.push_back({i});
+    else if (!file["instances"].is_array())
+        reader.reject("instances must be a list");
+    else
+        for (const Json& entry : file["instances"]) {
+            const std::string where = fmt::format("instances[{}]", scene.instances.size());
+            scene.instances.push_back(reader.instance(entry, where, scene.models.size()));
+        }
+    return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& path, const CurveOptions& options, const std::string& strands_path) {
+    if (std::filesystem::path(path).extension() == ".json") return load_scene_file(path, options);
+    const bool generated = path.rfind("generate:", 0) == 0;
+    return scene_of(generated ? path.substr(9) : std::filesystem::path(path).stem().string(),
+                    load_and_warn(path, options, strands_path));
+}
+
+}  // namespace strandlab

@@ -1,0 +1,142 @@
+#include "trace/trace_device.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "trace/cpu_trace.h"
+
+#include <tbb/info.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace strandlab {
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+class GpuTraced : public TracedScene {
+  public:
+    GpuTraced(const Device& device, const Primitive& primitive, std::vector<SceneModel> models,
+              std::span<const SceneInstance> instances, const SceneOptions& options)
+        : scene_(device, primitive, std::move(models), instances, options) {}
+    const SceneCost& cost() const override { return scene_.cost(); }
+    TraceResult trace(const Rays& rays, const TraceOptions& options) const override {
+        return scene_.trace(rays, options);
+    }
+
+  private:
+    GpuScene scene_;
+};
+
+/// The kernels through our own hierarchy; instances one after the other (there is no hierarchy over them).
+class CpuTraced : public TracedScene {
+  public:
+    CpuTraced(const Primitive& primitive, Precision precision, std::vector<SceneModel> models,
+              std::span<const SceneInstance> instances, const SceneOptions& options)
+        : models_(std::move(models)), instances_(instances.begin(), instances.end()), normals_(options.normals) {
+        const auto start = std::chrono::steady_clock::now();
+        tracers_.reserve(models_.size());
+        for (const SceneModel& model : models_) {
+            tracers_.emplace_back(model.geometry, primitive, precision, options.ray_extent);
+            const Geometry& g = model.geometry;
+            cost_.record_bytes += g.leaves.size() * sizeof(Leaf) + g.leaf_records.bytes.size() + g.curve_records.bytes.size();
+            cost_.leaf_count += g.leaf_count();
+            cost_.structure_count += 1;
+        }
+        cost_.builds.build_ms = milliseconds_since(start);
+    }
+
+    const SceneCost& cost() const override { return cost_; }
+
+    TraceResult trace(const Rays& rays, const TraceOptions& options) const override {
+        TraceResult result;
+        result.hits.hits.resize(rays.rays.size());
+        if (normals_) result.hits.normals.resize(rays.rays.size());
+        for (uint32_t sample = 0; sample < options.samples; ++sample) {
+            const auto start = std::chrono::steady_clock::now();
+            parallel_for(rays.rays.size(), [&](size_t i) {
+                glm::vec3 normal(0);
+                result.hits.hits[i] = trace_one(rays.rays[i], options.shadow, normal);
+                if (normals_) result.hits.normals[i] = normal;
+            });
+            result.milliseconds.push_back(milliseconds_since(start));
+        }
+        return result;
+    }
+
+  private:
+    Hit trace_one(Ray ray, bool shadow, glm::vec3& normal) const {
+        Hit best;
+        if (!is_valid(ray)) return best;
+        for (uint32_t i = 0; i < instances_.size(); ++i) {
+            const SceneInstance& instance = instances_[i];
+            Hit hit;
+            glm::vec3 object_normal(0);
+            const auto mode = shadow ? TraceMode::any : TraceMode::closest;
+            if (instance.world_from_object == glm::mat4x3(1.0f)) {
+                hit = tracers_[instance.model].trace(ray, mode, &object_normal);
+            } else {
+                const glm::mat3 inverse = glm::inverse(glm::mat3(instance.world_from_object));
+                const Ray object{inverse * (ray.origin - instance.world_from_object[3]), ray.tmin,
+                                 inverse * ray.direction, ray.tmax};
+                hit = tracers_[instance.model].trace(object, mode, &object_normal);
+                if (hit.is_hit()) object_normal = glm::normalize(object_normal * inverse);
+            }
+            if (!hit.is_hit()) continue;
+            if (shadow) return {ray.tmin, 0, 0, 0};
+            hit.curve += models_[instance.model].first_curve;
+            hit.instance = i;
+            best = hit;
+            normal = object_normal;
+            ray.tmax = hit.t;
+        }
+        return best;
+    }
+
+    std::vector<SceneModel> models_;
+    std::vector<SceneInstance> instances_;
+    std::vector<CpuTracer> tracers_;
+    bool normals_;
+    SceneCost cost_;
+};
+
+}  // namespace
+
+TraceDevice::TraceDevice(const DeviceOptions& options) {
+    if (options.selector == "cpu-float" || options.selector == "cpu-double") {
+        if (options.validation)
+            fail(ExitCode::usage, "--validation: {} does not use Vulkan; leave one of the two out", options.selector);
+        is_double_ = options.selector == "cpu-double";
+        name_ = options.selector;
+        driver_ = fmt::format("C++ {}, {} threads", is_double_ ? "double" : "float", tbb::info::default_concurrency());
+        class_ = "cpu";
+        return;
+    }
+    gpu_ = std::make_unique<Device>(options);
+    name_ = gpu_->info().name;
+    driver_ = gpu_->info().driver;
+    class_ = gpu_->info().has_ray_tracing_hardware ? "hardware" : "software";
+}
+
+TraceDevice::~TraceDevice() = default;
+
+bool TraceDevice::has_validation() const { return gpu_ && gpu_->has_validation(); }
+
+void TraceDevice::check_validation() const {
+    if (!has_validation()) return;
+    const std::vector<std::string> messages = gpu_->validation_messages();
+    if (messages.empty()) return;
+    fail(ExitCode::device_lost, "--validation: {} messages, the first: {}", messages.size(), messages.front());
+}
+
+std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, std::vector<SceneModel> models,
+                                                  std::span<const SceneInstance> instances,
+                                                  const SceneOptions& options) const {
+    if (gpu_) return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, options);
+    return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single, std::move(models),
+                                       instances, options);
+}
+
+}  // namespace strandlab

@@ -1,0 +1,44 @@
+// Where rays are traced: a Vulkan device, or this processor with the C++ version of the shaders' text.
+#pragma once
+
+#include "trace/gpu_scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace strandlab {
+
+/// A scene made ready for one primitive.
+class TracedScene {
+  public:
+    virtual ~TracedScene() = default;
+    virtual const SceneCost& cost() const = 0;
+    virtual TraceResult trace(const Rays& rays, const TraceOptions& options) const = 0;
+};
+
+/// A device by name: "cpu-float" and "cpu-double" are the C++ versions, everything else selects a Vulkan
+/// device (see DeviceOptions). Opened once, used for every scene.
+class TraceDevice {
+  public:
+    explicit TraceDevice(const DeviceOptions& options);
+    ~TraceDevice();
+
+    const std::string& name() const { return name_; }
+    const std::string& driver() const { return driver_; }
+    /// "software" or "hardware" traversal, "cpu": results of different classes never share a chart.
+    const std::string& device_class() const { return class_; }
+    bool has_validation() const;
+    /// Throws Error (device_lost) naming the first message when the validation layers said anything.
+    void check_validation() const;
+
+    std::unique_ptr<TracedScene> prepare(const Primitive& primitive, std::vector<SceneModel> models,
+                                         std::span<const SceneInstance> instances, const SceneOptions& options) const;
+
+  private:
+    std::unique_ptr<Device> gpu_;  // none for the C++ versions
+    bool is_double_ = false;
+    std::string name_, driver_, class_;
+};
+
+}  // namespace strandlab
