@@ -34,6 +34,7 @@ strandlab_optional(TESTS GTest "tests")
 
 option(STRANDLAB_SANITIZE "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(STRANDLAB_WERROR "Warnings are errors" OFF)
+option(STRANDLAB_FUZZ "libFuzzer targets of the file readers (tests/fuzz; clang only)" OFF)
 
 add_library(strandlab_flags INTERFACE)
 # No contraction: the C++ versions of the intersectors must round as the text says.

@@ -17,10 +17,11 @@ constexpr uint64_t longest_header = 65536;
 
 /// "(3, 4, 4)" or "(3,)"; the first dimension may be a word.
 std::string tuple_text(std::string_view first, std::span<const uint64_t> rest) {
-    std::string text = "(" + std::string(first) + ",";
+    std::string text = fmt::format("({},", first);
     for (size_t i = 0; i < rest.size(); ++i)
         text += fmt::format(" {}{}", rest[i], i + 1 < rest.size() ? "," : "");
-    return text + ")";
+    text += ')';
+    return text;
 }
 
 std::string tuple_text(std::span<const uint64_t> shape) {

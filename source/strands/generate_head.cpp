@@ -126,7 +126,7 @@ Generator head_generator() {
     parameters.push_back({"gravity", "turning towards the ground, 1/m", "20", 0, 1000});
     parameters.push_back({"wander", "slow random turning, 1/m", "7", 0, 1000});
     parameters.push_back(
-        {"lock_size", "size of the cells whose strands form a lock, of the head's radius", "0.12", 0.001, 1});
+        {"lock_size", "size of the cells whose strands form a lock, of the head's radius", "0.2", 0.001, 1});
     parameters.push_back({"gathering", "how far a strand closes in on its lock, 0 to 1", "0.8", 0, 1});
     parameters.push_back({"curl_radius", "radius of curls or half the width of waves, m", "0.006", 0, 1});
     parameters.push_back({"curl_period", "length of a curl or a wave, m", "0.045", 1e-4, 10});
