@@ -80,8 +80,8 @@ Outcome against_search(const Curve& curve, const Ray& ray, Surface::Sweep sweep,
 class OracleAccuracy : public testing::TestWithParam<int> {
   protected:
     Family family() const { return static_cast<Family>(GetParam()); }
-    /// t itself is a double: its last bit in radii, from 3 units away (more for the offset family).
-    double floor() const { return family() == Family::thin ? 3e-8 : family() == Family::offset ? 1e-8 : 1e-9; }
+    /// t is a double: its last bit from 3 units away, in radii, with a factor of ten.
+    double floor() const { return family() == Family::thin ? 1e-9 : 1e-11; }
 };
 
 TEST_P(OracleAccuracy, SpheresAgreeWithDenseSearch) {

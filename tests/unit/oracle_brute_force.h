@@ -54,7 +54,7 @@ class Search {
             }
             consider(b);
             const bool at_end = u < 1e-9L || u > 1 - 1e-9L;
-            if (at_end && caps == Caps::open) continue;
+            if ((at_end && caps == Caps::open) || !(at(u).w > 0)) continue;
             if (t >= tmin_ && t < best.t) best = {t, u, true};
         }
         return best;
@@ -104,7 +104,7 @@ class Search {
 
     void consider_disc(Real u, int side, Result& best) const {
         const Vec3 tangent = slope(u);
-        if (!(glm::length(tangent) > 1e-6L)) return;
+        if (!(glm::length(tangent) > 1e-6L) || !(at(u).w > 1e-12L)) return;
         const Vec3 normal = arm(u, side) / at(u).w - radius_slope(u) / glm::dot(tangent, tangent) * tangent;
         const Real t = foot(u) + Real(side) * chord(u);
         if (glm::dot(normal, d_) < 0 && t >= tmin_ && t < best.t) best = {t, u, true};
