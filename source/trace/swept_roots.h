@@ -30,6 +30,10 @@ struct Swept {
         const Real d = inside(u);
         return d > 0 ? std::sqrt(d) : Real(0);
     }
+    /// Radii at and below this are rounding noise of a tip of radius zero, which is no surface.
+    Real least_radius() const {
+        return 8 * std::numeric_limits<Real>::epsilon() * std::max(std::max(r[0], r[1]), std::max(r[2], r[3]));
+    }
     /// h(u).
     Real drift(Real u, Real lambda) const {
         return evaluate(x, u) * slope(x, u) + evaluate(y, u) * slope(y, u) - lambda * evaluate(r, u) * slope(r, u);
