@@ -74,7 +74,8 @@ FUNCTION bool round_cone_entry(real3 start, real ra, real3 end, real rb, bool op
     }
     if (!(abs(u) <= real(1e18))) u = axis.z >= real(0) ? real(0) : real(1);  // parallel to a cylinder
     if (ra + u * dr < real(0)) u = dr > real(0) ? real(1) : real(0);         // the other nappe
-    bool clamped_open = (u < real(0) && open_start) || (u > real(1) && open_end);
+    // The two lines above choose an end itself: it is open too.
+    bool clamped_open = (u <= real(0) && open_start) || (u >= real(1) && open_end);
     RoundConeHit side;
     if (!clamped_open && ball_entry(start, axis, ra, dr, clamp(u, real(0), real(1)), side)) {
         if (!found || side.z < hit.z) hit = side;

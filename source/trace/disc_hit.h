@@ -94,7 +94,7 @@ glm::vec<3, Real> disc_normal(const Swept<Real>& s, const SweptPoint<Real>& p, R
 template <class Real>
 void offer_disc_point(const Swept<Real>& s, Real u, Real offset, Real z_min, SweptResult<Real>& result) {
     const SweptPoint<Real> p(s, u);
-    if (!(p.radius > 0)) return;
+    if (!(p.radius > s.least_radius())) return;
     if (!p.regular) {
         // H vanishes with C' whatever the ray; the limit tangent tells whether the point is real.
         const bool has_plane = glm::length(p.tangent) > 0;
@@ -113,7 +113,7 @@ void offer_round_ends(const Swept<Real>& s, const PieceEnds& ends, Real z_min, S
     for (const int end : {0, 1}) {
         if (!(end == 0 ? ends.begins_strand : ends.ends_strand)) continue;
         const SweptPoint<Real> p(s, Real(end));
-        if (!(s.inside(Real(end)) >= 0) || !(p.radius > 0)) continue;
+        if (!(s.inside(Real(end)) >= 0) || !(p.radius > s.least_radius())) continue;
         const Real offset = -s.half_chord(Real(end)), beyond = p.off_plane(offset), z = p.centre.z + offset;
         if (!(end == 0 ? beyond <= 0 : beyond >= 0) || !(z >= z_min)) continue;
         result.offer({z, Real(end), p.radius, glm::normalize(p.arm(offset)), true});

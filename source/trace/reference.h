@@ -19,14 +19,17 @@ struct DecisiveMargin {
 };
 
 /// One reference hit per ray. A ray is decisive when hit or miss, and the strand that is hit, are the same
-/// for the surface with larger and with smaller radii. Only misjudged decisive rays are errors.
+/// for the surface with larger and with smaller radii. Only misjudged decisive rays are errors. The place of
+/// a decisive ray is decisive too when the hit of neither variation moves by more than 0.3 radii: a ray that
+/// grazes one part of a strand before it hits another has a decisive strand but no decisive place.
 struct Reference {
     std::vector<ReferenceHit> hits;
     std::vector<uint8_t> decisive;
+    std::vector<uint8_t> decisive_place;
 };
 
 /// Traces the rays against the surface and its two variations, in parallel. curves gives the strands that
-/// the surface's curve numbers belong to. The hits have no wrong-place test: whoever compares applies it.
+/// the surface's curve numbers belong to.
 Reference make_reference(const Surface& surface, const Curves& curves, std::span<const Ray> rays,
                          const DecisiveMargin& margin = {});
 

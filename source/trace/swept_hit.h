@@ -80,7 +80,7 @@ void offer_flat_caps(const Swept<Real>& s, const PieceEnds& ends, Real z_min, Sw
         if (!(end == 0 ? ends.begins_strand : ends.ends_strand)) continue;
         const SweptPoint<Real> p(s, Real(end));
         const glm::vec<3, Real> outward = end == 0 ? -p.tangent : p.tangent;
-        if (!(outward.z < 0) || !(p.radius > 0)) continue;
+        if (!(outward.z < 0) || !(p.radius > s.least_radius())) continue;
         const Real depth = (p.centre.x * p.tangent.x + p.centre.y * p.tangent.y) / p.tangent.z;
         const Real z = p.centre.z + depth;
         if (!(glm::length(p.arm(depth)) <= p.radius) || !(z >= z_min)) continue;
@@ -93,6 +93,7 @@ void offer_flat_caps(const Swept<Real>& s, const PieceEnds& ends, Real z_min, Sw
 template <class Real>
 SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real z_min) {
     SweptResult<Real> result;
+    const Real least_radius = s.least_radius();
     const std::optional<RoundCone<Real>> cone = ends.straight ? std::optional<RoundCone<Real>>(s) : std::nullopt;
     const Components<Real> components = cone ? cone->components() : find_components(s);
     for (const Interval<Real>& component : components) {
@@ -100,7 +101,7 @@ SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real 
         for (const Real u : {component.a, component.b, component.a + (component.b - component.a) / 2}) candidates.add(u);
         Real entry = std::numeric_limits<Real>::infinity(), exit = -entry, at = 0;
         for (const Real u : candidates) {
-            if (!(evaluate(s.r, u) > 0)) continue;
+            if (!(evaluate(s.r, u) > least_radius)) continue;
             const Real z = evaluate(s.z, u), chord = s.half_chord(u);
             exit = std::max(exit, z + chord);
             if (!(z - chord < entry)) continue;

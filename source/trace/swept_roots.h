@@ -30,6 +30,10 @@ struct Swept {
         const Real d = inside(u);
         return d > 0 ? std::sqrt(d) : Real(0);
     }
+    /// Radii at and below this are rounding noise of a tip of radius zero, which is no surface.
+    Real least_radius() const {
+        return 8 * std::numeric_limits<Real>::epsilon() * std::max(std::max(r[0], r[1]), std::max(r[2], r[3]));
+    }
     /// h(u).
     Real drift(Real u, Real lambda) const {
         return evaluate(x, u) * slope(x, u) + evaluate(y, u) * slope(y, u) - lambda * evaluate(r, u) * slope(r, u);
@@ -103,7 +107,7 @@ bool misses(const Swept<Real>& s, Real a, Real b) {
 template <class Real>
 void add_component(Components<Real>& list, Real a, Real b) {
     if (list.count > 0 && a <= list.items[list.count - 1].b)
-        list.items[list.count - 1].b = b;
+        list.items[list.count - 1].b = std::max(b, list.items[list.count - 1].b);
     else
         list.add({a, b});
 }
@@ -131,13 +135,20 @@ Components<Real> find_components(const Swept<Real>& s) {
             add_component(list, part.a, part.b);
             continue;
         }
-        if (sign_variations(d) == 1) {
-            const int sign = leading_sign(d);
+        // A zero at an end where D is negative beside it: a ray that touches the ball there.
+        const int sign = leading_sign(d), variations = sign_variations(d);
+        if (d.front() == 0 && sign < 0) add_component(list, part.a, part.a);
+        if (variations == 0) {
+            if (d.back() == 0) add_component(list, part.b, part.b);
+            continue;
+        }
+        if (variations == 1) {
             const Real root = bracketed_root(inside, part.a, part.b, sign);
             if (sign > 0)
                 add_component(list, part.a, root);
             else
                 add_component(list, root, part.b);
+            if (sign > 0 && d.back() == 0) add_component(list, part.b, part.b);
             continue;
         }
         const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
