@@ -66,8 +66,8 @@ RayErrors::RayErrors(const ComparisonInput& input) : input_(input) {
     assert(input.normals.empty() || input.normals.size() == input.rays.size());
     assert(input.decisive.empty() || input.decisive.size() == input.rays.size());
     assert(input.curves != nullptr || input.hit_or_miss_only || !input.knows_curves);
-    for (const glm::mat4x3& transform : input.object_to_world)
-        world_to_object_.push_back(glm::inverse(glm::dmat4(glm::mat4(transform))));
+    for (const glm::mat4x3& transform : input.world_from_object)
+        object_from_world_.push_back(glm::inverse(glm::dmat4(glm::mat4(transform))));
 }
 
 RayError RayErrors::of(size_t ray) const {
@@ -122,11 +122,11 @@ void RayErrors::measure_curve(const Ray& ray, const Hit& hit, const ReferenceHit
     set(error, Measure::strand_u, std::abs(curves_apart + (u - reference.u)));
 
     glm::dvec3 origin(ray.origin), direction(ray.direction);
-    if (!world_to_object_.empty()) {
-        assert(hit.instance < world_to_object_.size());
-        const glm::dmat4& to_object = world_to_object_[hit.instance];
-        origin = glm::dvec3(to_object * glm::dvec4(origin, 1));
-        direction = glm::dvec3(to_object * glm::dvec4(direction, 0));
+    if (!object_from_world_.empty()) {
+        assert(hit.instance < object_from_world_.size());
+        const glm::dmat4& from_world = object_from_world_[hit.instance];
+        origin = glm::dvec3(from_world * glm::dvec4(origin, 1));
+        direction = glm::dvec3(from_world * glm::dvec4(direction, 0));
     }
     const Curve& curve = input_.curves->curves[hit.curve];
     const Curve& reference_curve = input_.curves->curves[reference.curve];

@@ -60,9 +60,9 @@ struct ComparisonInput {
     double margin = 0;                       // the d that decisive was found with
     const Curves* curves = nullptr;          // strands for identity and u; centre lines for h and tangents
 
-    /// Object-to-world transforms that hits name by instance; empty: one instance, not moved. u, h and
+    /// Transforms of the instances that hits name; empty: one instance, not moved. u, h and
     /// tangents are compared in object space, where the curves are.
-    std::span<const glm::mat4x3> object_to_world = {};
+    std::span<const glm::mat4x3> world_from_object = {};
 
     /// Measure the residual against the sweep of the curves themselves (the common reference).
     bool residual_of_curves = false;
@@ -97,7 +97,7 @@ class RayErrors {
     void measure_normal(const glm::vec3& normal, const ReferenceHit& reference, RayError& error) const;
 
     const ComparisonInput& input_;
-    std::vector<glm::dmat4> world_to_object_;
+    std::vector<glm::dmat4> object_from_world_;
 };
 
 /// Spacing of floats at |t|, as a double; NaN for a t that is not finite.

@@ -290,7 +290,7 @@ TEST(Comparison, InstancesAreComparedInObjectSpace) {
     c.reference[ray].radius = 2 * static_cast<double>(radius);
     c.hits[ray].t = static_cast<float>(t);
     ComparisonInput in = c.input();
-    in.object_to_world = transforms;
+    in.world_from_object = transforms;
     in.residual_of_curves = true;
     const RayError error = RayErrors(in).of(ray);
     EXPECT_EQ(error.outcome, Outcome::match);

@@ -1,0 +1,209 @@
+#include "report/result_json.h"
+
+#include "base/error.h"
+#include "base/log.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace strandlab {
+
+using Json = nlohmann::ordered_json;
+
+Json json_number(double value) {
+    if (std::isfinite(value)) return value;
+    if (std::isnan(value)) return "nan";
+    return value > 0 ? "inf" : "-inf";
+}
+
+std::optional<double> number_of(const Json& value) {
+    if (value.is_number()) return value.get<double>();
+    if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (value == "inf") return std::numeric_limits<double>::infinity();
+    if (value == "-inf") return -std::numeric_limits<double>::infinity();
+    return std::nullopt;
+}
+
+namespace {
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? json_number(*value) : Json();
+}
+
+Json hash_text(uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+Json to_json(const Count& count) {
+    const Interval bounds = count.bounds();
+    Json object{{"count", count.count}, {"trials", count.trials}, {"low", bounds.low}, {"high", bounds.high}};
+    object["first_ray"] = count.first_ray == Count::no_ray ? Json() : Json(count.first_ray);
+    return object;
+}
+
+/// Null when the measure exists for no ray.
+Json to_json(const Percentiles& p) {
+    if (p.count == 0) return {};
+    return {{"count", p.count},          {"p50", json_number(p.p50)},   {"p95", json_number(p.p95)},
+            {"p99", json_number(p.p99)}, {"p999", json_number(p.p999)}, {"max", json_number(p.max)},
+            {"worst_ray", p.worst_ray}};
+}
+
+Json to_json(const Tally& tally) {
+    Json object{{"rays", tally.rays},
+                {"agreed_misses", tally.agreed_misses},
+                {"matches", tally.matches},
+                {"nan", to_json(tally.nan)},
+                {"false_hit", to_json(tally.false_hit)},
+                {"false_miss", to_json(tally.false_miss)},
+                {"wrong_strand", to_json(tally.wrong_strand)},
+                {"wrong_place", to_json(tally.wrong_place)},
+                {"bad_normal", to_json(tally.bad_normal)}};
+    for (size_t i = 0; i < measure_count; ++i)
+        object[std::string(measure_infos[i].name)] = to_json(tally.measures[i]);
+    return object;
+}
+
+Json to_json(const Summary& s) {
+    return {{"median", s.median},
+            {"low", s.median_bounds.low},
+            {"high", s.median_bounds.high},
+            {"mad", s.mad},
+            {"p5", s.p5},
+            {"p95", s.p95},
+            {"min", s.min},
+            {"max", s.max}};
+}
+
+Json to_json(const ModelFacts& model) {
+    return {{"name", model.name},
+            {"hash", hash_text(model.hash)},
+            {"curves", model.curves},
+            {"strands", model.strands},
+            {"instances", model.instances}};
+}
+
+Json to_json(const RayFacts& rays) {
+    return {{"name", rays.name},   {"count", rays.count},   {"hash", hash_text(rays.hash)},
+            {"width", rays.width}, {"height", rays.height}, {"samples", rays.samples}};
+}
+
+Json to_json(const PrimitiveFacts& primitive) {
+    Json parameters = Json::object();
+    for (const auto& [name, value] : primitive.parameters) parameters[name] = value;
+    return {{"name", primitive.name},
+            {"label", primitive.label},
+            {"parameters", parameters},
+            {"caps", name_of(primitive.caps)},
+            {"wanted_caps", name_of(primitive.wanted_caps)},
+            {"caps_fell_back", primitive.caps_fell_back()}};
+}
+
+Json to_json(const DeviceFacts& device) {
+    return {{"name", device.name},
+            {"driver", device.driver},
+            {"api_version", device.api_version},
+            {"kind", device.kind},
+            {"class", device.device_class()},
+            {"validation_layers", device.validation_layers}};
+}
+
+Json time_of(const ResultRow& row) {
+    const auto trace = row.trace_time();
+    Json samples = Json::array();
+    for (const double sample : row.trace_ms) samples.push_back(json_number(sample));
+    const auto of_cost = [&](auto&& value) { return row.cost ? json_number(value(*row.cost)) : Json(); };
+    return {{"trace_ms", trace ? to_json(*trace) : Json()},
+            {"mrays_per_second", optional_number(row.mrays_per_second())},
+            {"geometry_ms", optional_number(row.geometry_ms)},
+            {"order_ms", of_cost([](const SceneCost& c) { return c.order_ms; })},
+            {"upload_ms", of_cost([](const SceneCost& c) { return c.builds.upload_ms; })},
+            {"build_ms", of_cost([](const SceneCost& c) { return c.builds.build_ms; })},
+            {"compaction_ms", of_cost([](const SceneCost& c) { return c.builds.compaction_ms; })},
+            {"pipeline_ms", of_cost([](const SceneCost& c) { return c.pipeline_ms; })},
+            {"samples_ms", samples}};
+}
+
+Json memory_of(const ResultRow& row) {
+    const auto of_cost = [&](auto&& value) { return row.cost ? Json(value(*row.cost)) : Json(); };
+    return {{"leaves", of_cost([](const SceneCost& c) { return c.leaf_count; })},
+            {"structures", of_cost([](const SceneCost& c) { return c.structure_count; })},
+            {"input_bytes", of_cost([](const SceneCost& c) { return c.builds.input_bytes; })},
+            {"scratch_bytes", of_cost([](const SceneCost& c) { return c.builds.scratch_bytes; })},
+            {"built_bytes", of_cost([](const SceneCost& c) { return c.builds.built_bytes; })},
+            {"kept_bytes", of_cost([](const SceneCost& c) { return c.builds.kept_bytes; })},
+            {"record_bytes", of_cost([](const SceneCost& c) { return c.record_bytes; })},
+            {"peak_bytes", of_cost([](const SceneCost& c) { return c.builds.peak_bytes; })},
+            {"resident_bytes", row.resident_bytes() ? Json(*row.resident_bytes()) : Json()},
+            {"bytes_per_curve", optional_number(row.bytes_per_curve())}};
+}
+
+Json to_json(const Context& context) {
+    return {
+        {"version", context.version},   {"commit", context.commit}, {"modified", context.modified},
+        {"compiler", context.compiler}, {"flags", context.flags},   {"build_type", context.build_type},
+        {"cpu", context.cpu},           {"cores", context.cores},   {"memory_bytes", context.memory_bytes},
+        {"system", context.system},     {"time", context.time}};
+}
+
+}  // namespace
+
+Json to_json(const Comparison& comparison) {
+    return {{"hit_or_miss_only", comparison.hit_or_miss_only},
+            {"margin", json_number(comparison.margin)},
+            {"resolvable", comparison.is_resolvable()},
+            {"undecided_share", comparison.undecided_share()},
+            {"decisive", to_json(comparison.decisive)},
+            {"all", to_json(comparison.all)},
+            {"on_cap", to_json(comparison.on_cap)},
+            {"inside", to_json(comparison.inside)}};
+}
+
+Json to_json(const ResultRow& row) {
+    return {{"schema", ResultRow::schema},
+            {"command", row.command},
+            {"key", row.key()},
+            {"model", to_json(row.model)},
+            {"rays", to_json(row.rays)},
+            {"primitive", to_json(row.primitive)},
+            {"device", to_json(row.device)},
+            {"time", time_of(row)},
+            {"memory", memory_of(row)},
+            {"intersector_error", row.intersector_error ? to_json(*row.intersector_error) : Json()},
+            {"model_error", row.model_error ? to_json(*row.model_error) : Json()},
+            {"seed", row.seed},
+            {"context", to_json(row.context)}};
+}
+
+std::string to_line(const Json& object) {
+    return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<Json> read_json_lines(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail(ExitCode::bad_input, "{}: cannot open this result file", path);
+    std::vector<Json> rows;
+    size_t number = 0;
+    for (std::string line; std::getline(file, line);) {
+        ++number;
+        const bool is_complete = !file.eof();
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        Json row = Json::parse(line, nullptr, false);
+        if (row.is_object())
+            rows.push_back(std::move(row));
+        else if (!is_complete)
+            warn("{}: line {} was cut off and is left out", path, number);
+        else
+            fail(ExitCode::bad_input,
+                 "{}: line {} is not a JSON object; remove it or choose a file that bench wrote", path,
+                 number);
+    }
+    if (file.bad()) fail(ExitCode::bad_input, "{}: cannot read beyond line {}", path, number);
+    return rows;
+}
+
+}  // namespace strandlab

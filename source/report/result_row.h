@@ -1,0 +1,92 @@
+// One case of a benchmark: everything that is known about it, once.
+#pragma once
+
+#include "gpu/device.h"
+#include "measure/comparison.h"
+#include "primitives/primitive.h"
+#include "report/context.h"
+#include "scene/rays.h"
+#include "strands/curves.h"
+#include "trace/gpu_scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace strandlab {
+
+/// The model that was traced.
+struct ModelFacts {
+    std::string name;
+    uint64_t hash = 0;  // of the curves and strands
+    size_t curves = 0, strands = 0;
+    size_t instances = 1;
+};
+ModelFacts facts_of(std::string name, const Curves& curves, size_t instances = 1);
+
+/// The rays that were traced. Of a picture, width and height are pixels and samples are per pixel; other
+/// sets have 0 samples and their launch shape.
+struct RayFacts {
+    std::string name;
+    size_t count = 0;
+    uint64_t hash = 0;
+    uint32_t width = 0, height = 0, samples = 0;
+};
+RayFacts facts_of(const Rays& rays, uint32_t samples = 0);
+
+/// The primitive with all its parameters, and the caps that it used.
+struct PrimitiveFacts {
+    std::string name, label;
+    std::vector<std::pair<std::string, std::string>> parameters;  // all, in the order of its table
+    Caps caps = Caps::round;
+    Caps wanted_caps = Caps::round;  // those of the scene
+
+    /// The primitive cannot do the scene's caps and used its own.
+    bool caps_fell_back() const { return caps != wanted_caps; }
+};
+PrimitiveFacts facts_of(const PrimitiveChoice& choice, Caps wanted_caps);
+
+/// Where the rays were traced. Rows of software and of hardware traversal are never compared.
+struct DeviceFacts {
+    std::string name, driver, api_version, kind;
+    bool hardware_traversal = false;
+    bool validation_layers = false;
+
+    std::string_view device_class() const { return hardware_traversal ? "hardware" : "software"; }
+};
+DeviceFacts facts_of(const Device& device);
+
+/// A finished case. What was not measured is empty, never 0.
+struct ResultRow {
+    static constexpr int schema = 1;  // raised whenever a field changes its meaning or goes
+
+    std::string command = "bench";
+    ModelFacts model;
+    RayFacts rays;
+    PrimitiveFacts primitive;
+    DeviceFacts device;
+    std::vector<double> trace_ms;       // every sample in the order of measurement
+    std::optional<double> geometry_ms;  // host: making leaves and records from the curves
+    std::optional<SceneCost> cost;
+    std::optional<Comparison> intersector_error;  // against the primitive's own surface
+    std::optional<Comparison> model_error;        // against the common reference
+    uint64_t seed = 0;
+    Context context;
+
+    /// Of trace_ms; the bootstrap is seeded by the row's seed.
+    std::optional<Summary> trace_time() const;
+    /// Million rays a second at the median time.
+    std::optional<double> mrays_per_second() const;
+    /// Bytes that stay on the device while tracing: structures and records.
+    std::optional<uint64_t> resident_bytes() const;
+    /// The same per curve of the model.
+    std::optional<double> bytes_per_curve() const;
+    /// Equal for rows that measure the same thing on the same device: model, rays, primitive, caps, device,
+    /// seed. What --resume and --baseline match rows by.
+    std::string key() const;
+};
+
+}  // namespace strandlab
