@@ -1,6 +1,8 @@
 #include "trace/ray_sets.h"
 
+#include "base/byte_source.h"
 #include "base/error.h"
+#include "base/npy.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/text.h"
@@ -38,9 +40,7 @@ glm::dvec3 moved_off(const glm::dvec3& point, const glm::dvec3& normal, double r
     return point + normal * std::max(0.01 * radius, 4 * ulp);
 }
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Where a hit's rays start; nothing leaves a hit that has no usable place or normal.
 struct Spawn {
@@ -82,9 +82,7 @@ Rays spawned(const PrimaryHits& primary, const DirectionOf& direction_of) {
     return rays;
 }
 
-double fraction(double x) {
-    return x - std::floor(x);
-}
+double fraction(double x) { return x - std::floor(x); }
 
 /// Places in a pixel, (0, 0) at its top left corner.
 glm::dvec2 sample_place(const PictureSize& size, uint64_t seed, size_t pixel, uint32_t sample) {
@@ -192,6 +190,11 @@ void set_launch_shape(Rays& rays) {
     rays.height = width == 0 ? 0 : static_cast<uint32_t>((count + width - 1) / width);
 }
 
+LoadedRays load_rays(const std::string& path) {
+    const auto rows = read_npy<std::array<float, 8>>(ByteSource::from_file(path), {"<f4", {8}});
+    return rays_from_floats(path, {reinterpret_cast<const float*>(rows.data()), rows.size() * 8});
+}
+
 LoadedRays rays_from_floats(std::string name, std::span<const float> values) {
     if (values.empty() || values.size() % 8 != 0)
         fail(ExitCode::bad_input, "{}: {} numbers are no rays: each has 8 (ox oy oz tmin dx dy dz tmax)",
@@ -205,9 +208,7 @@ LoadedRays rays_from_floats(std::string name, std::span<const float> values) {
     return loaded;
 }
 
-std::span<const RaySetInfo> ray_sets() {
-    return table;
-}
+std::span<const RaySetInfo> ray_sets() { return table; }
 
 const RaySetInfo& ray_set_named(std::string_view name) {
     for (const RaySetInfo& set : table)

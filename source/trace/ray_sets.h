@@ -69,6 +69,9 @@ struct LoadedRays {
 /// of 8 or is 0; name is for messages and becomes the name of the set.
 LoadedRays rays_from_floats(std::string name, std::span<const float> values);
 
+/// Rays of an .npy file, float32 [M, 8]. Throws Error (bad_input) naming file, place and value.
+LoadedRays load_rays(const std::string& path);
+
 /// What the maker of a named ray set may use.
 struct RaySetInput {
     const Curves& curves;

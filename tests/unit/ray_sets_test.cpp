@@ -1,6 +1,7 @@
 #include "trace/ray_sets.h"
 
 #include "base/error.h"
+#include "base/npy.h"
 #include "base/random.h"
 #include "strands/bezier.h"
 #include "trace/sampling.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -282,6 +284,26 @@ TEST(RaysFromFloats, InvalidRaysAreDisabledAndCounted) {
     for (const Ray& ray : loaded.rays.rays) EXPECT_TRUE(is_valid(ray));
     EXPECT_THROW(rays_from_floats("x", std::span(values).first(7)), Error);
     EXPECT_THROW(rays_from_floats("x", {}), Error);
+}
+
+TEST(LoadRays, ReadsWhatNpyHoldsAndNamesWhatItDoesNot) {
+    const std::string path = testing::TempDir() + "strandlab_rays_test.npy";
+    Rays rays = primary_rays(camera, {8, 5, 1});
+    rays.rays[3].direction = glm::vec3(0);
+    write_npy(path, {"<f4", {8}}, std::span<const Ray>(rays.rays));
+    const LoadedRays loaded = load_rays(path);
+    EXPECT_EQ(loaded.invalid, 1u);
+    EXPECT_EQ(loaded.rays.name, path);
+    disable_invalid(rays.rays);
+    EXPECT_EQ(hash(loaded.rays), hash(rays));
+
+    const float seven[7] = {};
+    write_npy(path, {"<f4", {7}}, seven, 1);
+    EXPECT_THROW(load_rays(path), Error);
+    write_npy(path, {"<f4", {8}}, nullptr, 0);
+    EXPECT_THROW(load_rays(path), Error);
+    std::remove(path.c_str());
+    EXPECT_THROW(load_rays(path), Error);
 }
 
 }  // namespace
