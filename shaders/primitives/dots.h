@@ -38,7 +38,8 @@ FUNCTION real3 dots_offset(DotsJoint start, DotsJoint end, uint quad, uint trian
     real at_end = triangle == 0u ? -barycentrics.x : first - barycentrics.y;
     real3 start_axis = quad == 0u ? start.axis_0 : start.axis_1;
     real3 end_axis = quad == 0u ? end.axis_0 : end.axis_1;
-    return start_axis * (at_start * start.radius * width_factor) + end_axis * (at_end * end.radius * width_factor);
+    return start_axis * (at_start * start.radius * width_factor) +
+           end_axis * (at_end * end.radius * width_factor);
 }
 
 // Unit normal of the triangle on the side that the ray comes from; against the ray where there is none.
@@ -91,9 +92,9 @@ FUNCTION void dots_move(real3 direction, real3 tangent, real chord_length, real3
 
 // Normal of a hit (round, or of the triangle), and with round_offset its place on the round strand.
 // t and along are those of the triangle before.
-FUNCTION void dots_finish(real3 direction, real tmin, DotsJoint start, DotsJoint end, uint quad, uint triangle,
-                          real2 barycentrics, real width_factor, bool round_normals, bool round_offset,
-                          INOUT(real) t, INOUT(real) along, OUT(real3) normal) {
+FUNCTION void dots_finish(real3 direction, real tmin, DotsJoint start, DotsJoint end, uint quad,
+                          uint triangle, real2 barycentrics, real width_factor, bool round_normals,
+                          bool round_offset, INOUT(real) t, INOUT(real) along, OUT(real3) normal) {
     real3 offset = dots_offset(start, end, quad, triangle, barycentrics, width_factor);
     real radius = start.radius + (end.radius - start.radius) * along;
     real3 chord = end.centre - start.centre;

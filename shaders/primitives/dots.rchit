@@ -32,11 +32,11 @@ void main() {
     if (wants_normals || round_offset != 0u) {
         uint start = IndexBuffer(row.shading_records).items[leaf.curve] + leaf_piece(leaf);
         vec3 normal;
-        dots_finish(gl_ObjectRayDirectionEXT, gl_RayTminEXT, fetch_joint(row, start), fetch_joint(row, start + 1u),
-                    quad, triangle, barycentrics, width_factor, round_normals != 0u, round_offset != 0u, t, along,
-                    normal);
+        dots_finish(gl_ObjectRayDirectionEXT, gl_RayTminEXT, fetch_joint(row, start),
+                    fetch_joint(row, start + 1u), quad, triangle, barycentrics, width_factor,
+                    round_normals != 0u, round_offset != 0u, t, along, normal);
         payload.normal = normalize(vec3(normal * gl_WorldToObjectEXT));
     }
     float u = (float(leaf_piece(leaf)) + along) / float(leaf_pieces(leaf));
-    payload.hit = Hit(t, u, row.first_curve + leaf.curve, gl_InstanceID);
+    payload.hit = Hit(t, u, row.first_curve + leaf.curve, row.instance);
 }

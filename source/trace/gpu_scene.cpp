@@ -80,7 +80,7 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     if (geometry.leaf_records.stride != 0) buffers.leaf_records = upload(device_, geometry.leaf_records.bytes, cost_);
     if (geometry.curve_records.stride != 0)
         buffers.curve_records = upload(device_, geometry.curve_records.bytes, cost_);
-    if (geometry.shading_records.stride != 0 && options.normals)
+    if (geometry.shading_records.stride != 0 && (options.normals || geometry.always_shades))
         buffers.shading_records = upload(device_, geometry.shading_records.bytes, cost_);
     cost_.builds.upload_ms += milliseconds_since(start);
     cost_.leaf_count += geometry.leaf_count();
