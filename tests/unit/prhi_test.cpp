@@ -316,6 +316,45 @@ TEST(Prhi, HasNoHitsAndNoNumbersGoneBadWhereThereIsNoSurface) {
     }
 }
 
+TEST(Prhi, HasNoCracksBetweenLeaves) {
+    const PrimitiveChoice choice = parse_primitive("prhi");
+    for (const char* name : {"gentle", "near-parallel", "r/L=1e-4", "offset 1e4"})
+        for (uint64_t i = 0; i < 1500; ++i) {
+            const RayCurvePair pair = testing::make_pair(testing::ray_family(name), i);
+            // Through the tube exactly where two leaves meet.
+            const glm::dvec4 point = point_at(to_double(pair.curve), 0.25 * double(1 + i % 3));
+            Random random(7, 0, i);
+            const glm::dvec3 direction = glm::normalize(glm::dvec3(pair.ray.direction));
+            const glm::dvec3 aside = glm::normalize(glm::cross(direction, glm::dvec3(0.3, 0.5, -0.8)));
+            Ray ray = pair.ray;
+            ray.origin = glm::vec3(glm::dvec3(point) - 5.0 * direction +
+                                   aside * (random.signed_unit() * 0.5 * point.w));
+            const DiscAnswer answer = testing::disc_answer(to_double(pair.curve), ray);
+            if (!answer.decisive || !answer.hit) continue;
+            const auto hit = nearest<float>(choice, pair.curve, ray);
+            ASSERT_TRUE(hit.found) << name << " " << i;
+            EXPECT_NEAR(hit.hit.t, answer.hit->t, 0.02 * point.w) << name << " " << i;
+        }
+}
+
+TEST(Prhi, DoesNotDependOnTheUnit) {
+    const PrimitiveChoice choice = parse_primitive("prhi");
+    for (const float scale : {std::ldexp(1.f, -16), std::ldexp(1.f, 16)})
+        for (uint64_t i = 0; i < 200; ++i) {
+            RayCurvePair pair = testing::make_pair(testing::ray_family("gentle"), i);
+            const auto before = nearest<float>(choice, pair.curve, pair.ray);
+            for (glm::vec4& point : pair.curve) point *= scale;
+            pair.ray.origin *= scale;
+            pair.ray.direction *= scale;
+            const auto after = nearest<float>(choice, pair.curve, pair.ray);
+            ASSERT_EQ(before.found, after.found);
+            if (before.found) {
+                EXPECT_EQ(before.hit.t, after.hit.t);
+                EXPECT_EQ(before.hit.u, after.hit.u);
+            }
+        }
+}
+
 TEST(Prhi, SplitsWhatTurnsTooFar) {
     const Curve line{glm::vec4(0, 0, 0, 0.1f), {1, 0, 0, 0.1f}, {2, 0, 0, 0.1f}, {3, 0, 0, 0.1f}};
     const Curve loop{glm::vec4(0, 0, 0, 0.1f), {3, 3, 0, 0.1f}, {-3, 3, 0, 0.1f}, {0.1f, 0, 0, 0.1f}};
