@@ -97,6 +97,7 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
     real run_start = search.a;
     bool run_counts = !search.joint_start_inside;
     real start = search.a;
+    real margin = real(0.125) * search.step;
     real4 p = cubic_point(c, start);
     u = start;
     // A capsule is at least 2^-12 long.
@@ -109,7 +110,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
         }
         bool finished = !(start < search.b);
         bool passes = distance > p.w + search.slack;
-        if (finished || passes) {
+        // A candidate beyond the gap belongs to the run that follows.
+        if (finished || (passes && run_u <= start)) {
             if (!passes && search.joint_end_inside) run_counts = false;
             bool at_open_end = (search.open_start && run_u <= real(0)) || (search.open_end && run_u >= real(1));
             if (run_counts && !at_open_end && run_z >= search.z_min && run_z < z) {
@@ -120,6 +122,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
             if (finished) break;
             run_z = far;
             run_counts = true;
+        }
+        if (passes) {
             real next = next_possible_u(c, p, distance, search.slack, start, search.b);
             if (!(next <= real(1))) break;
             next = max(start, min(next - real(1e-5), search.b - search.step));
@@ -135,7 +139,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
         // The capsule holds the piece: an entry behind what is known already cannot lead to a nearer one.
         if (round_cone_entry(real3(p), p.w + inflation, real3(q), q.w + inflation, false, false, hit) &&
             hit.z < min(z, run_z))
-            refine_entry(c, run_start, search.b, real(2) * search.step, lerp(start, end, hit.u), run_z, run_u);
+            refine_entry(c, max(run_start, start - margin), min(search.b, end + margin), search.step,
+                         lerp(start, end, hit.u), run_z, run_u);
         start = end;
         p = q;
     }

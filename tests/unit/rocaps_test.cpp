@@ -151,5 +151,10 @@ TEST(Rocaps, Table) {
     fmt::print("{}", errors_of<float>("rocaps", "structured", "open").row("structured"));
 }
 
+TEST(Rocaps, Probe) {
+    const std::string label = std::getenv("LABEL"), family = std::getenv("FAMILY"), caps = std::getenv("CAPS");
+    fmt::print("{}", errors_of<float>(label, family, caps).row(family));
+}
+
 }  // namespace
 }  // namespace strandlab::testing
