@@ -1,6 +1,7 @@
 // Roving capsules against the double-precision oracle, family by family: the figures that each variant must
 // reach, and the failures that the published one is known for.
 #include "base/parallel.h"
+#include "base/random.h"
 #include "primitives/primitive.h"
 #include "strands/bezier.h"
 #include "trace/oracle.h"
@@ -10,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -67,7 +67,8 @@ const std::vector<Answered>& answered_family(const std::string& name, const std:
     if (all.empty()) {
         const std::vector<RayCurvePair> pairs = pairs_of(name);
         all.resize(pairs.size());
-        parallel_for(all.size(), [&](size_t i) { all[i] = answer(pairs[i], one_strand({pairs[i].curve}), caps); });
+        parallel_for(all.size(),
+                     [&](size_t i) { all[i] = answer(pairs[i], one_strand({pairs[i].curve}), caps); });
     }
     return all;
 }
@@ -92,7 +93,8 @@ bool nearest(const PrimitiveChoice& choice, const Curves& strand, const Ray& ray
     return found;
 }
 
-void count(const Answered& answered, bool found, double t, const glm::dvec3& normal, IntersectorErrors& errors) {
+void count(const Answered& answered, bool found, double t, const glm::dvec3& normal,
+           IntersectorErrors& errors) {
     if (!answered.decisive) return;
     const ReferenceHit& reference = answered.hit;
     ++(reference.is_hit() ? errors.hits : errors.misses);
@@ -101,16 +103,17 @@ void count(const Answered& answered, bool found, double t, const glm::dvec3& nor
     } else if (!reference.is_hit()) {
         ++errors.false_hits;
     } else {
-        const double angle = std::atan2(glm::length(glm::cross(normal, reference.normal)),
-                                        glm::dot(normal, reference.normal));
-        errors.add_hit(t, reference.t, glm::length(glm::dvec3(answered.pair.ray.direction)), reference.radius, angle);
+        const double angle =
+            std::atan2(glm::length(glm::cross(normal, reference.normal)), glm::dot(normal, reference.normal));
+        errors.add_hit(t, reference.t, glm::length(glm::dvec3(answered.pair.ray.direction)), reference.radius,
+                       angle);
     }
 }
 
 /// The errors over pairs whose strands make_strand makes of their curve.
 template <class Real, class MakeStrand>
-IntersectorErrors errors_over(const std::string& label, const std::string& caps, const std::vector<Answered>& all,
-                              MakeStrand&& make_strand) {
+IntersectorErrors errors_over(const std::string& label, const std::string& caps,
+                              const std::vector<Answered>& all, MakeStrand&& make_strand) {
     const PrimitiveChoice choice = parse_primitive(label, caps);
     std::vector<LeafHit<Real>> hits(all.size());
     std::vector<char> found(all.size());
@@ -121,39 +124,229 @@ IntersectorErrors errors_over(const std::string& label, const std::string& caps,
     for (size_t i = 0; i < all.size(); ++i) {
         const size_t faults = errors.false_misses + errors.false_hits + errors.wrong_hits;
         count(all[i], found[i], double(hits[i].t), glm::dvec3(hits[i].normal), errors);
-        if (std::getenv("ROCAPS_FAULTS") && errors.false_misses + errors.false_hits + errors.wrong_hits != faults)
-            fmt::print("fault {} found {} t {} u {} reference t {} u {} r {} inside {}\n", i, int(found[i]), hits[i].t,
-                       hits[i].u, all[i].hit.t, all[i].hit.u, all[i].hit.radius, all[i].hit.starts_inside);
+        if (std::getenv("ROCAPS_FAULTS") &&
+            errors.false_misses + errors.false_hits + errors.wrong_hits != faults)
+            fmt::print("fault {} found {} t {} u {} reference t {} u {} r {} inside {}\n", i, int(found[i]),
+                       hits[i].t, hits[i].u, all[i].hit.t, all[i].hit.u, all[i].hit.radius,
+                       all[i].hit.starts_inside);
     }
     return errors;
 }
 
 template <class Real>
-IntersectorErrors errors_of(const std::string& label, const std::string& family, const std::string& caps = "round") {
+IntersectorErrors errors_of(const std::string& label, const std::string& family,
+                            const std::string& caps = "round") {
     return errors_over<Real>(label, caps, answered_family(family, caps),
                              [](const Curve& curve) { return one_strand({curve}); });
 }
 
 TEST(Rocaps, Table) {
-    if (std::getenv("STRANDLAB_LONG_TESTS") == nullptr) GTEST_SKIP() << "set STRANDLAB_LONG_TESTS to print it";
-    for (const std::string label : {"rocaps", "rocaps:splits=1", "rocaps:epsilon=0.1", "rocaps:variant=published"}) {
+    if (std::getenv("STRANDLAB_LONG_TESTS") == nullptr)
+        GTEST_SKIP() << "set STRANDLAB_LONG_TESTS to print it";
+    for (const std::string label :
+         {"rocaps", "rocaps:splits=1", "rocaps:epsilon=0.1", "rocaps:variant=published"}) {
         fmt::print("\n{}\n{}", label, IntersectorErrors::header());
-        for (const RayFamily& f : ray_families()) fmt::print("{}", errors_of<float>(label, f.name).row(f.name));
+        for (const RayFamily& f : ray_families())
+            fmt::print("{}", errors_of<float>(label, f.name).row(f.name));
         fmt::print("{}", errors_of<float>(label, "structured").row("structured"));
     }
     for (const std::string label : {"rocaps", "rocaps:variant=published"}) {
         fmt::print("\n{} in double\n{}", label, IntersectorErrors::header());
-        for (const RayFamily& f : ray_families()) fmt::print("{}", errors_of<double>(label, f.name).row(f.name));
+        for (const RayFamily& f : ray_families())
+            fmt::print("{}", errors_of<double>(label, f.name).row(f.name));
         fmt::print("{}", errors_of<double>(label, "structured").row("structured"));
     }
     fmt::print("\nrocaps, open\n{}", IntersectorErrors::header());
-    for (const RayFamily& f : ray_families()) fmt::print("{}", errors_of<float>("rocaps", f.name, "open").row(f.name));
+    for (const RayFamily& f : ray_families())
+        fmt::print("{}", errors_of<float>("rocaps", f.name, "open").row(f.name));
     fmt::print("{}", errors_of<float>("rocaps", "structured", "open").row("structured"));
 }
 
-TEST(Rocaps, Probe) {
-    const std::string label = std::getenv("LABEL"), family = std::getenv("FAMILY"), caps = std::getenv("CAPS");
-    fmt::print("{}", errors_of<float>(label, family, caps).row(family));
+/// The figures that a variant must reach on a family: rates at most, percentiles of |dt| / r at most.
+struct Figures {
+    const char* family;
+    double false_miss, false_hit, wrong_hit, p50, p99;
+};
+
+void expect_within(const IntersectorErrors& errors, const Figures& f) {
+    SCOPED_TRACE(f.family + (": " + errors.row(f.family)));
+    EXPECT_LE(errors.false_miss_rate(), f.false_miss);
+    EXPECT_LE(errors.false_hit_rate(), f.false_hit);
+    EXPECT_LE(errors.wrong_hit_rate(), f.wrong_hit);
+    EXPECT_LE(IntersectorErrors::percentile(errors.distances, 0.5), f.p50);
+    EXPECT_LE(IntersectorErrors::percentile(errors.distances, 0.99), f.p99);
+}
+
+// Zero means zero: where a prototype of the same idea measured none, none is allowed. The distances of far
+// rays are those of a t rounded to float.
+const Figures verified_figures[] = {
+    {"gentle", 0, 0, 0, 1.8e-5, 2.6e-4},
+    {"curl", 0, 0, 0, 1.8e-5, 3.2e-4},
+    {"taper", 0, 0, 0, 6e-6, 1.0e-4},
+    {"hard taper", 0, 0, 0, 1.2e-6, 2e-5},
+    {"near-parallel", 0, 0, 0, 3.5e-5, 2.5e-3},
+    {"grazing", 0, 0, 0, 5e-5, 1.2e-3},
+    {"r/L=1e-2", 0, 0, 0, 1.1e-5, 5e-5},
+    {"r/L=1e-3", 0, 0, 0, 1.1e-4, 5e-4},
+    {"r/L=1e-4", 0, 0, 0, 1.1e-3, 5e-3},
+    {"r/L=1e-5", 4.2e-4, 6.5e-4, 0, 1.1e-2, 5e-2},
+    {"far 1e2", 0, 0, 0, 4e-4, 4.5e-3},
+    {"far 1e4", 0, 0, 0, 3.9e-2, 4.1e-1},
+    {"far 1e6", 0, 0, 0, 2.1, 30},
+    {"offset 1e4", 0, 0, 0, 1.8e-5, 2.6e-4},
+    {"inside", 0, 2.5e-5, 0, 1e-4, 1e-4},
+    {"degenerate", 0, 0, 0, 1.8e-5, 3e-4},
+    {"fat curl", 0, 0, 0, 4e-7, 5e-6},
+    // Five rays run exactly along the axis of a cone into its tip of radius 0, where there is no answer.
+    {"structured", 0, 0, 4.9e-4, 4e-6, 4e-5},
+};
+
+TEST(Rocaps, VerifiedReachesItsFigures) {
+    for (const Figures& f : verified_figures) expect_within(errors_of<float>("rocaps", f.family), f);
+}
+
+TEST(Rocaps, VerifiedNeedsNoSplits) {
+    for (const Figures& f : verified_figures) expect_within(errors_of<float>("rocaps:splits=1", f.family), f);
+}
+
+TEST(Rocaps, VerifiedOpenEndsReachTheSameFigures) {
+    for (const Figures& f : verified_figures) expect_within(errors_of<float>("rocaps", f.family, "open"), f);
+}
+
+TEST(Rocaps, VerifiedIsExactInDouble) {
+    for (Figures f : verified_figures) {
+        f.p50 = 1e-10, f.p99 = 1e-6;
+        expect_within(errors_of<double>("rocaps", f.family), f);
+    }
+}
+
+TEST(Rocaps, VerifiedNormalsAreTheBalls) {
+    for (const char* family : {"gentle", "curl", "taper", "hard taper", "degenerate", "fat curl"}) {
+        const IntersectorErrors errors = errors_of<float>("rocaps", family);
+        EXPECT_LE(IntersectorErrors::percentile(errors.angles, 0.99), 3e-3) << family;
+    }
+}
+
+TEST(Rocaps, PublishedStaysWithinItsFigures) {
+    // Rates: those published figures plus three standard deviations of a thousand rays.
+    for (const Figures& f : {Figures{"gentle", 4e-3, 1.2e-2, 3e-3, 3e-3, 6e-2},
+                             {"curl", 4e-3, 2e-2, 3e-3, 4e-3, 7e-2},
+                             {"taper", 3e-3, 8e-3, 3e-3, 1.5e-3, 4e-2},
+                             {"hard taper", 2e-3, 0, 2e-3, 3e-4, 8e-3},
+                             {"r/L=1e-2", 4e-3, 1e-2, 2e-3, 3e-3, 5e-2},
+                             {"r/L=1e-3", 3e-3, 1e-2, 2e-3, 3e-3, 4e-2}})
+        expect_within(errors_of<float>("rocaps:variant=published", f.family), f);
+}
+
+TEST(Rocaps, PublishedFailsWhereItIsKnownTo) {
+    const auto published = [](const char* family) {
+        return errors_of<float>("rocaps:variant=published", family);
+    };
+    // Chords inside the bends show at silhouettes and in depth.
+    EXPECT_GT(published("grazing").false_miss_rate(), 0.02);
+    EXPECT_GT(published("grazing").false_hit_rate(), 0.02);
+    EXPECT_GT(IntersectorErrors::percentile(published("gentle").distances, 0.5), 5e-4);
+    // Rays that start inside see the caps of capsules.
+    EXPECT_GT(published("inside").false_hit_rate(), 0.05);
+    // The plain frame loses the place at a distance; in double it does not.
+    EXPECT_GT(published("far 1e4").false_hit_rate(), 0.03);
+    EXPECT_GT(published("far 1e6").false_miss_rate(), 0.3);
+    EXPECT_LT(errors_of<double>("rocaps:variant=published", "far 1e6").false_miss_rate(), 0.01);
+    // The plain discriminant misses capsules that a ray meets in exact alignment.
+    EXPECT_GT(published("structured").false_miss_rate(), 0.01);
+}
+
+/// The curve as a strand of three.
+Curves in_three(const Curve& curve) {
+    const CurveD c = to_double(curve);
+    std::vector<Curve> parts;
+    for (int i = 0; i < 3; ++i) parts.push_back(to_float(restricted(c, i / 3.0, (i + 1) / 3.0)));
+    for (int i = 0; i < 2; ++i) parts[i + 1][0] = parts[i][3];
+    return one_strand(parts);
+}
+
+TEST(Rocaps, JointsOfStrandsDoNotShow) {
+    for (const char* family :
+         {"gentle", "curl", "hard taper", "near-parallel", "inside", "degenerate", "fat curl"})
+        for (const std::string caps : {"round", "open"}) {
+            const IntersectorErrors errors =
+                errors_over<float>("rocaps", caps, answered_family(family, caps), in_three);
+            // In open tubes a ray along the axis can come in through another curve of the strand.
+            const bool blind =
+                caps == "open" && (std::string(family) == "near-parallel" ||
+                                   std::string(family) == "fat curl" || std::string(family) == "hard taper");
+            expect_within(errors, {family, 0,
+                                   blind                             ? 1
+                                   : std::string(family) == "inside" ? 5e-3
+                                                                     : 0,
+                                   blind ? 1. : 1e-3, 1e-3, 1});
+        }
+}
+
+TEST(Rocaps, KinksOfPolylinesHaveNoHoles) {
+    const float r = 0.02f;
+    const auto line = [&](glm::vec3 a, glm::vec3 b) {
+        return Curve{glm::vec4(a, r), glm::vec4(glm::mix(a, b, 1 / 3.f), r),
+                     glm::vec4(glm::mix(a, b, 2 / 3.f), r), glm::vec4(b, r)};
+    };
+    const glm::vec3 joint(0.1f, 0.2f, 0.3f);
+    const Curves strand =
+        one_strand({line(glm::vec3(-0.4f, 0.3f, -0.1f), joint), line(joint, glm::vec3(-0.3f, 0.4f, 0.8f))});
+    std::vector<Answered> all(2000);
+    parallel_for(all.size(), [&](size_t i) {
+        Random random(5, 0, i);
+        const glm::vec3 target =
+            joint + 1.2f * r * glm::vec3(random.signed_unit(), random.signed_unit(), random.signed_unit());
+        Ray ray;
+        ray.direction = glm::vec3(random.signed_unit(), random.signed_unit(), random.signed_unit());
+        ray.origin = target - 5.f * ray.direction;
+        all[i] = answer({strand.curves[0], ray}, strand, "round");
+    });
+    expect_within(errors_over<float>("rocaps", "round", all, [&](const Curve&) { return strand; }),
+                  {"kink", 0, 0, 0, 1e-4, 5e-3});
+}
+
+TEST(Rocaps, RespectsTheRayInterval) {
+    const PrimitiveChoice choice = parse_primitive("rocaps");
+    for (const Answered& a : answered_family("gentle")) {
+        if (!a.decisive || !a.hit.is_hit()) continue;
+        const Curves strand = one_strand({a.pair.curve});
+        LeafHit<float> hit;
+        Ray ray = a.pair.ray;
+        ray.tmax = float(a.hit.t * (1 + 1e-5));
+        EXPECT_TRUE(nearest(choice, strand, ray, hit));
+        ray.tmax = float(a.hit.t * (1 - 1e-5));
+        EXPECT_FALSE(nearest(choice, strand, ray, hit));
+        // Beyond the entry the ray starts inside: the same part of the solid does not count.
+        ray.tmax = 1e30f;
+        ray.tmin = float(a.hit.t * (1 + 1e-5));
+        if (nearest(choice, strand, ray, hit)) {
+            EXPECT_GT(hit.t, ray.tmin + a.hit.radius);
+        }
+    }
+}
+
+TEST(Rocaps, AnyBitsOfACurveAreAMissOrAFiniteHit) {
+    for (const std::string label : {"rocaps", "rocaps:splits=1", "rocaps:variant=published"})
+        for (const std::string caps : {"round", "open"}) {
+            const PrimitiveChoice choice = parse_primitive(label, caps);
+            for (uint64_t i = 0; i < 400; ++i) {
+                Random random(99, 0, i);
+                RayCurvePair pair = make_pair(ray_family("curl"), i);
+                for (int k = 0; k < 1 + int(i % 4); ++k)
+                    pair.curve[random.below(4)][static_cast<int>(random.below(4))] =
+                        std::bit_cast<float>(random.bits());
+                // The builder refuses nothing, so the boxes' own arithmetic is not asked.
+                LeafHit<float> single;
+                if (nearest(choice, one_strand({pair.curve}), pair.ray, single)) {
+                    EXPECT_TRUE(std::isfinite(single.t) && std::isfinite(single.u)) << label << " " << i;
+                }
+                LeafHit<double> precise;
+                if (nearest(choice, one_strand({pair.curve}), pair.ray, precise)) {
+                    EXPECT_TRUE(std::isfinite(precise.t) && std::isfinite(precise.u)) << label << " " << i;
+                }
+            }
+        }
 }
 
 }  // namespace
