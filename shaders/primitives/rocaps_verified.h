@@ -2,12 +2,10 @@
 // 2024 only find candidates: each is thick enough to hold its piece of the curve, and the parameter that
 // it gives is then refined on the swept sphere itself.
 
-// A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at
-// u: Newton on g = h + z' sqrt(D) with h = x x' + y y' - r r' where g grows about as on the tangent cone, else
-// the exact minimum of the tangent cone; outside the tube towards the ray line. Near the minimum (`near`, or
-// the last step `previous` went beyond it) g may also grow faster, as it does where the tube is thicker
-// than its bend.
-FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside, bool near, real previous) {
+// A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at u:
+// Newton on g = h + z' sqrt(D), h = x x' + y y' - r r', where g grows about as it does at a minimum (there h =
+// -z' sqrt(D)), else the exact minimum of the tangent cone; outside the tube towards the ray line.
+FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
     real h = p.x * d.x + p.y * d.y - p.w * d.w;
     real lateral = d.x * d.x + d.y * d.y;
     real a = d.w * d.w - lateral;
@@ -17,8 +15,9 @@ FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside, bool near, 
         real depth = sqrt(inside);
         real g = h + d.z * depth;
         real g_slope = h_slope + depth * dd.z - d.z * h / depth;
-        bool steep = near || g * previous > real(0);
-        if (g_slope > real(0.5) * e && (steep || g_slope < real(2) * e)) return -g / g_slope;
+        real settled = h_slope + depth * dd.z + d.z * d.z;
+        if (settled > real(0.02) * e && g_slope > real(0.5) * settled && g_slope < real(2) * settled)
+            return -g / g_slope;
     }
     real along_x = p.w * d.x - d.w * p.x;
     real along_y = p.w * d.y - d.w * p.y;
@@ -52,12 +51,19 @@ FUNCTION void refine_entry(FrameCubic c, real low, real high, real longest, real
                 best_u = u;
             }
         }
-        real step = verified_step(p, d, dd, inside, false, previous);
+        real step = verified_step(p, d, dd, inside);
         if (step > longest) step = longest;
         if (step < -longest) step = -longest;
-        if (step * previous < real(0) && abs(step) > real(0.5) * abs(previous)) step = step * real(0.5);
-        real next = min(max(u + step, low), high);
-        if (!(abs(step) <= longest) || !(abs(next - u) > real_epsilon)) return;
+        if (!(abs(step) <= longest)) return;
+        // The minimum lies ahead of the step's start; once a step turned back, that brackets it.
+        if (step > real(0))
+            low = u;
+        else
+            high = u;
+        real next = u + step;
+        if (step * previous < real(0) && !(next > low && next < high)) next = real(0.5) * (low + high);
+        next = min(max(next, low), high);
+        if (!(abs(next - u) > real_epsilon)) return;
         previous = step;
         u = next;
     }
@@ -84,7 +90,36 @@ struct VerifiedSearch {
     bool joint_end_inside;
     bool open_start;  // an entry at u = 0 (1) is none
     bool open_end;
+    bool splits_runs;  // gaps within a capsule matter: a part of the solid may have to be passed as a whole
 };
+
+// Where the ray line leaves the balls of [a, b] for a moment although it meets those at a and b; b when it does
+// not. The dip of D between is where h = -D' / 2 changes its sign.
+FUNCTION real gap_between(FrameCubic c, real a, real b) {
+    real4 d;
+    real4 dd;
+    real4 p = cubic_jet(c, a, d, dd);
+    real h_a = p.x * d.x + p.y * d.y - p.w * d.w;
+    p = cubic_jet(c, b, d, dd);
+    real h_b = p.x * d.x + p.y * d.y - p.w * d.w;
+    if (!(h_a > real(0) && h_b < real(0)) || axis_distance(p) > p.w) return b;
+    real low = a;
+    real high = b;
+    for (int i = 0; i < 4; ++i) {
+        real u = (low * h_b - high * h_a) / (h_b - h_a);
+        p = cubic_jet(c, u, d, dd);
+        if (axis_distance(p) > p.w) return u;
+        real h = p.x * d.x + p.y * d.y - p.w * d.w;
+        if (h > real(0)) {
+            low = u;
+            h_a = h;
+        } else {
+            high = u;
+            h_b = h;
+        }
+    }
+    return b;
+}
 
 // Nearest entry on [a, b] with z_min <= z < z; false when there is none. A run is a stretch of capsules
 // without a gap along the ray line: one connected part of the solid, whose nearest entry alone counts, so
@@ -97,6 +132,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
     real run_start = search.a;
     bool run_counts = !search.joint_start_inside;
     real start = search.a;
+    // Where runs must not mix, a candidate stays within its capsule.
+    real margin = search.splits_runs ? real(0) : real(0.125) * search.step;
     real4 p = cubic_point(c, start);
     u = start;
     // A capsule is at least 2^-12 long.
@@ -109,7 +146,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
         }
         bool finished = !(start < search.b);
         bool passes = distance > p.w + search.slack;
-        if (finished || passes) {
+        // A candidate beyond the gap belongs to the run that follows.
+        if (finished || (passes && run_u <= start)) {
             if (!passes && search.joint_end_inside) run_counts = false;
             bool at_open_end = (search.open_start && run_u <= real(0)) || (search.open_end && run_u >= real(1));
             if (run_counts && !at_open_end && run_z >= search.z_min && run_z < z) {
@@ -120,6 +158,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
             if (finished) break;
             run_z = far;
             run_counts = true;
+        }
+        if (passes) {
             real next = next_possible_u(c, p, distance, search.slack, start, search.b);
             if (!(next <= real(1))) break;
             next = max(start, min(next - real(1e-5), search.b - search.step));
@@ -128,6 +168,7 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
             run_start = start;
         }
         real end = min(search.b, start + search.step);
+        if (search.splits_runs && !passes) end = gap_between(c, start, end);
         real4 q = cubic_point(c, end);
         real length = end - start;
         real inflation = search.bend * length * length * real(0.125) + search.slack;
@@ -135,7 +176,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
         // The capsule holds the piece: an entry behind what is known already cannot lead to a nearer one.
         if (round_cone_entry(real3(p), p.w + inflation, real3(q), q.w + inflation, false, false, hit) &&
             hit.z < min(z, run_z))
-            refine_entry(c, run_start, search.b, real(2) * search.step, lerp(start, end, hit.u), run_z, run_u);
+            refine_entry(c, max(run_start, start - margin), min(search.b, end + margin), search.step,
+                         lerp(start, end, hit.u), run_z, run_u);
         start = end;
         p = q;
     }
@@ -155,17 +197,18 @@ FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, 
         real4 dd;
         real4 p = cubic_jet(c, u, d, dd);
         real distance = axis_distance(p);
-        real inside = max((p.w - distance) * (p.w + distance), real(0));
-        real entry = p.z - sqrt(inside);
-        if (i > 0 && !(entry <= z)) break;
+        real inside = (p.w - distance) * (p.w + distance);
+        real depth = sqrt(max(inside, real(0)));
+        real entry = p.z - depth;
+        if (i > 0 && !(inside >= real(0) && entry <= z)) break;
         z = entry;
         best_u = u;
-        best = real3(-p.x, -p.y, -sqrt(inside)) / p.w;
-        real step = verified_step(p, d, dd, inside, true, real(0));
+        best = real3(-p.x, -p.y, -depth) / p.w;
+        real step = verified_step(p, d, dd, inside);
         if (!(abs(step) <= real(2) * search.step)) break;
         real next = u + step;
-        if (next < a - margin && u <= a + margin && a > real(0)) return false;
-        if (next > b + margin && u >= b - margin && b < real(1)) return false;
+        if (step < real(0) && next < a - margin && u <= a + margin && a > real(0)) return false;
+        if (step > real(0) && next > b + margin && u >= b - margin && b < real(1)) return false;
         next = min(max(next, search.a), search.b);
         if (!(abs(next - u) > real(4) * real_epsilon)) break;
         u = next;
@@ -232,8 +275,9 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     real z_low = min(min(c.p0.z - c.p0.w, c.p1.z - c.p1.w), min(c.p2.z - c.p2.w, c.p3.z - c.p3.w));
     real z_high = max(max(c.p0.z + c.p0.w, c.p1.z + c.p1.w), max(c.p2.z + c.p2.w, c.p3.z + c.p3.w));
     bool starts_near = search.z_min >= z_low && search.z_min <= z_high;
-    if (crosses_a && (starts_near || search.open_start || search.open_end)) search.a = real(0);
-    if (crosses_b && (starts_near || search.open_start || search.open_end)) search.b = real(1);
+    search.splits_runs = starts_near || search.open_start || search.open_end;
+    if (crosses_a && search.splits_runs) search.a = real(0);
+    if (crosses_b && search.splits_runs) search.b = real(1);
     // A ball of radius 0 is no part of the solid: stop just before such a tip.
     if (!(c.p0.w > real(0))) search.a = max(search.a, real(1.0 / 1048576.0));
     if (!(c.p3.w > real(0))) search.b = min(search.b, real(1048575.0 / 1048576.0));

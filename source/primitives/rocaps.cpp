@@ -14,11 +14,11 @@ namespace kernels {
 template <class real>
 struct RocapsKernel {
     STRANDLAB_KERNEL_TYPES
-#include "shaders/shared/ray_frame.h"
 #include "shaders/primitives/lss.h"
 #include "shaders/primitives/rocaps.h"
 #include "shaders/primitives/rocaps_published.h"
 #include "shaders/primitives/rocaps_verified.h"
+#include "shaders/shared/ray_frame.h"
 };
 
 }  // namespace kernels
