@@ -26,7 +26,8 @@ double half_area(const Box& box) {
 
 bool is_usable(const Box& box) {
     for (int i = 0; i < 3; ++i)
-        if (!(box.low[i] <= box.high[i]) || !std::isfinite(box.low[i]) || !std::isfinite(box.high[i])) return false;
+        if (!(box.low[i] <= box.high[i]) || !std::isfinite(box.low[i]) || !std::isfinite(box.high[i]))
+            return false;
     return true;
 }
 

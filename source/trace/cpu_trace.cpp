@@ -10,8 +10,8 @@ namespace strandlab {
 
 CpuTracer::CpuTracer(const Geometry& geometry, const Primitive& primitive, Precision precision, float extent)
     : geometry_(geometry), primitive_(primitive), precision_(precision) {
-    const bool has_kernel = precision == Precision::single ? primitive.cpu.single != nullptr
-                                                           : primitive.cpu.precise != nullptr;
+    const bool has_kernel =
+        precision == Precision::single ? primitive.cpu.single != nullptr : primitive.cpu.precise != nullptr;
     if (!has_kernel)
         fail(ExitCode::usage, "primitive {}: has no C++ intersector of this precision; trace it on a device",
              primitive.name);
@@ -21,41 +21,79 @@ CpuTracer::CpuTracer(const Geometry& geometry, const Primitive& primitive, Preci
 }
 
 template <class Real, class Intersect>
-Hit CpuTracer::trace_with(Intersect intersect, const Ray& ray, TraceMode mode, glm::vec3* normal) const {
-    LeafHit<Real> best, hit;
-    uint32_t best_leaf = no_curve;
+CpuTracer::Found<Real> CpuTracer::first(Intersect intersect, const Ray& ray, TraceMode mode) const {
+    Found<Real> best;
+    LeafHit<Real> hit;
     const BvhRay traversal(ray.origin, ray.direction, ray.tmin, ray.tmax);
     bvh_.traverse(traversal, [&](uint32_t leaf, double& tmax) {
         // A kernel accepts t < tmax only; one step more lets ties through, which the lower leaf wins.
-        const Real limit = best_leaf == no_curve
-                               ? Real(ray.tmax)
-                               : std::nextafter(best.t, std::numeric_limits<Real>::infinity());
+        const bool has_hit = best.leaf != no_curve;
+        const Real limit =
+            has_hit ? std::nextafter(best.hit.t, std::numeric_limits<Real>::infinity()) : Real(ray.tmax);
         if (!intersect(geometry_, leaf, ray, limit, hit)) return false;
-        if (best_leaf != no_curve && !(hit.t < best.t || (hit.t == best.t && leaf < best_leaf))) return false;
-        best = hit;
-        best_leaf = leaf;
+        if (has_hit && !(hit.t < best.hit.t || (hit.t == best.hit.t && leaf < best.leaf))) return false;
+        best = {hit, leaf};
         tmax = double(hit.t);
         return mode == TraceMode::any;
     });
-    if (best_leaf == no_curve) return {};
-    if (normal) *normal = glm::vec3(best.normal);
-    return {static_cast<float>(best.t), static_cast<float>(best.u), geometry_.leaves[best_leaf].curve, 0};
+    return best;
 }
 
 Hit CpuTracer::trace(const Ray& ray, TraceMode mode, glm::vec3* normal) const {
     if (normal) *normal = glm::vec3(0);
     if (!is_valid(ray)) return {};
-    return precision_ == Precision::single ? trace_with<float>(primitive_.cpu.single, ray, mode, normal)
-                                           : trace_with<double>(primitive_.cpu.precise, ray, mode, normal);
+    const auto result = [&](const auto& found) -> Hit {
+        if (found.leaf == no_curve) return {};
+        if (normal) *normal = glm::vec3(found.hit.normal);
+        return {static_cast<float>(found.hit.t), static_cast<float>(found.hit.u),
+                geometry_.leaves[found.leaf].curve, 0};
+    };
+    return precision_ == Precision::single ? result(first<float>(primitive_.cpu.single, ray, mode))
+                                           : result(first<double>(primitive_.cpu.precise, ray, mode));
 }
 
-Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays, Precision precision,
-               TraceMode mode, bool wants_normals) {
+ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
+    ReferenceHit result;
+    if (!is_valid(ray)) return result;
+    const auto fill = [&](const auto& found) {
+        if (found.leaf == no_curve) return;
+        result.t = double(found.hit.t);
+        result.u = double(found.hit.u);
+        result.normal = glm::dvec3(found.hit.normal);
+        result.curve = geometry_.leaves[found.leaf].curve;
+    };
+    if (precision_ == Precision::single)
+        fill(first<float>(primitive_.cpu.single, ray, TraceMode::closest));
+    else
+        fill(first<double>(primitive_.cpu.precise, ray, TraceMode::closest));
+    return result;
+}
+
+namespace {
+
+/// Largest coordinate of any origin, for the padding of the boxes.
+float extent_of(std::span<const Ray> rays) {
     float extent = 0;
     for (const Ray& ray : rays)
         if (is_valid(ray))
-            extent = std::max({extent, std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
-    const CpuTracer tracer(geometry, primitive, precision, extent);
+            extent =
+                std::max({extent, std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
+    return extent;
+}
+
+}  // namespace
+
+std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Primitive& primitive,
+                                            std::span<const Ray> rays) {
+    const CpuTracer tracer(geometry, primitive, Precision::precise, extent_of(rays));
+    std::vector<ReferenceHit> hits(rays.size());
+    parallel_for(rays.size(), [&](size_t i) { hits[i] = tracer.trace_unrounded(rays[i]); });
+    return hits;
+}
+
+Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,
+               Precision precision, TraceMode mode, bool wants_normals) {
+    const CpuTracer tracer(geometry, primitive, precision, extent_of(rays));
     Hits result;
     result.hits.resize(rays.size());
     if (wants_normals) result.normals.resize(rays.size());

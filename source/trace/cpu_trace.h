@@ -8,6 +8,7 @@
 #include "trace/bvh.h"
 
 #include <span>
+#include <vector>
 
 namespace strandlab {
 
@@ -29,9 +30,17 @@ class CpuTracer {
     /// leaf. Invalid rays miss.
     Hit trace(const Ray& ray, TraceMode mode = TraceMode::closest, glm::vec3* normal = nullptr) const;
 
+    /// The same, not rounded to float: t, u, normal and curve of the closest hit.
+    ReferenceHit trace_unrounded(const Ray& ray) const;
+
   private:
+    template <class Real>
+    struct Found {
+        LeafHit<Real> hit;
+        uint32_t leaf = no_curve;  // no_curve: a miss
+    };
     template <class Real, class Intersect>
-    Hit trace_with(Intersect intersect, const Ray& ray, TraceMode mode, glm::vec3* normal) const;
+    Found<Real> first(Intersect intersect, const Ray& ray, TraceMode mode) const;
 
     const Geometry& geometry_;
     const Primitive& primitive_;
@@ -39,8 +48,14 @@ class CpuTracer {
     Bvh bvh_;
 };
 
+/// All rays, in parallel, with the double-precision kernel and its results as they are: against the oracle,
+/// this is the error of the algorithm apart from that of rounding. Radius, caps and starts_inside are not
+/// filled in.
+std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Primitive& primitive,
+                                            std::span<const Ray> rays);
+
 /// All rays, in parallel; normals only when wanted.
-Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays, Precision precision,
-               TraceMode mode = TraceMode::closest, bool wants_normals = false);
+Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,
+               Precision precision, TraceMode mode = TraceMode::closest, bool wants_normals = false);
 
 }  // namespace strandlab

@@ -19,7 +19,8 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
         for (const int end : {0, 1}) {
             if (!(end == 0 ? ends.begins_strand : ends.ends_strand)) continue;
             const SweptPoint<Real> p(at, Real(end));
-            const Real beyond = -p.centre.x * p.tangent.x - p.centre.y * p.tangent.y - p.centre.z * p.tangent.z;
+            const Real beyond =
+                -p.centre.x * p.tangent.x - p.centre.y * p.tangent.y - p.centre.z * p.tangent.z;
             if (excess(Real(end)) >= 0 && (end == 0 ? beyond <= 0 : beyond >= 0)) return true;
         }
     struct Part {
@@ -75,7 +76,8 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
 /// Outward normal of the swept discs at p = C + arm: the cross product of the derivatives along and
 /// around the tube, (|C'| - r e . T_u) e - r' T with e = arm / r and T_u = (C'' - T (T . C'')) / |C'|.
 template <class Real>
-glm::vec<3, Real> disc_normal(const Swept<Real>& s, const SweptPoint<Real>& p, Real u, const glm::vec<3, Real>& arm) {
+glm::vec<3, Real> disc_normal(const Swept<Real>& s, const SweptPoint<Real>& p, Real u,
+                              const glm::vec<3, Real>& arm) {
     using Vec3 = glm::vec<3, Real>;
     const Vec3 e = glm::normalize(arm);
     if (!p.regular) return e;
@@ -131,7 +133,8 @@ SweptResult<Real> hit_discs(const Swept<Real>& s, const PieceEnds& ends, Real z_
             // curve at a right angle and both points count.
             const Real chord = s.half_chord(u), h = s.drift(u, 0), dz = slope(s.z, u);
             const Real entry = std::abs(h + dz * chord), exit = std::abs(h - dz * chord);
-            const Real both = Real(1e-9) * std::max(SweptPoint<Real>(s, u).speed * evaluate(s.r, u), std::abs(h));
+            const Real both =
+                Real(1e-9) * std::max(SweptPoint<Real>(s, u).speed * evaluate(s.r, u), std::abs(h));
             if (entry <= exit || entry <= both) offer_disc_point(s, u, -chord, z_min, result);
             if (exit <= entry || exit <= both) offer_disc_point(s, u, chord, z_min, result);
         }

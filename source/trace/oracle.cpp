@@ -49,7 +49,9 @@ uint16_t part_count(const SurfacePiece& piece, uint32_t most) {
         if (i > 0) length += glm::length(glm::dvec3(piece.control[i]) - glm::dvec3(piece.control[previous]));
     }
     const double parts = length / (8 * radius);
-    return static_cast<uint16_t>(parts >= most ? most : parts > 1 ? static_cast<uint32_t>(std::ceil(parts)) : 1u);
+    return static_cast<uint16_t>(parts >= most ? most
+                                 : parts > 1   ? static_cast<uint32_t>(std::ceil(parts))
+                                               : 1u);
 }
 
 }  // namespace
@@ -119,15 +121,16 @@ class Oracle::Query {
         const ParameterRange range(piece, surface_.caps, options_);
         const Swept<Real> s = swept_piece(frame, piece, range, options_);
         const Real a = leaf.part == 0 ? Real(0) : Real(range.local(double(leaf.part) / leaf.parts));
-        const Real b = leaf.part + 1 == leaf.parts ? Real(1) : Real(range.local(double(leaf.part + 1) / leaf.parts));
+        const Real b =
+            leaf.part + 1 == leaf.parts ? Real(1) : Real(range.local(double(leaf.part + 1) / leaf.parts));
         if (misses(s, a, b)) return;
         // Whatever part of the piece the ray came through, the piece is examined as a whole, once.
         recent_[next_recent_] = leaf.primitive;
         next_recent_ = (next_recent_ + 1) % recent_.size();
         const PieceEnds ends{surface_.caps, piece.begins_strand, piece.ends_strand, piece.straight};
         const Real z_min = frame.depth(ray_.tmin);
-        const SweptResult<Real> found = surface_.sweep == Surface::Sweep::disc ? hit_discs(s, ends, z_min)
-                                                                              : hit_spheres(s, ends, z_min);
+        const SweptResult<Real> found =
+            surface_.sweep == Surface::Sweep::disc ? hit_discs(s, ends, z_min) : hit_spheres(s, ends, z_min);
         if (found.starts_inside) best_.starts_inside = true;
         if (found.found) take(frame, piece, range, found.hit, leaf.primitive);
     }

@@ -38,8 +38,8 @@ struct Frame {
         length = std::sqrt(length_squared);
         // Any parameter near the foot point will do, so take one with few bits: then t * d is exact as the
         // sum of two doubles, and the frame's origin is known as an unevaluated sum.
-        const double t = upper_half(glm::dot(middle - ray.origin, ray.direction) /
-                                    glm::dot(ray.direction, ray.direction));
+        const double t =
+            upper_half(glm::dot(middle - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction));
         t_foot = t;
         for (int i = 0; i < 3; ++i) {
             const double d_high = upper_half(ray.direction[i]), d_low = ray.direction[i] - d_high;
@@ -59,7 +59,9 @@ struct Frame {
         return Vec3(dot(p, axis_x), dot(p, axis_y), dot(p, axis_z));
     }
     /// A vector of the frame in the space of the ray.
-    glm::dvec3 global(Real x, Real y, Real z) const { return glm::dvec3(axis_x * x + axis_y * y + axis_z * z); }
+    glm::dvec3 global(Real x, Real y, Real z) const {
+        return glm::dvec3(axis_x * x + axis_y * y + axis_z * z);
+    }
     /// Ray parameter of a depth, and back.
     Real parameter(Real z) const { return t_foot + z / length; }
     Real depth(double t) const { return (Real(t) - t_foot) * length; }

@@ -1,9 +1,8 @@
 // Reference hits of a ray set, and which of them float arithmetic can be held to.
 #pragma once
 
-#include "trace/oracle.h"
-
 #include "strands/curves.h"
+#include "trace/oracle.h"
 
 #include <cstdint>
 #include <span>

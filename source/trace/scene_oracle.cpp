@@ -42,10 +42,11 @@ SceneOracle::SceneOracle(std::span<const Surface> surfaces, std::span<const Surf
         const glm::dmat3 linear(transform[0], transform[1], transform[2]);
         const double volume = glm::determinant(linear);
         if (!std::isfinite(volume) || volume == 0)
-            fail(ExitCode::bad_input, "instance {}: transform with determinant {} cannot be inverted", i, volume);
+            fail(ExitCode::bad_input, "instance {}: transform with determinant {} cannot be inverted", i,
+                 volume);
         const Oracle* oracle = oracles_[instance.surface].get();
-        placed_.push_back({oracle, glm::inverse(linear), transform[3], std::cbrt(std::abs(volume)),
-                           instance.first_curve});
+        placed_.push_back(
+            {oracle, glm::inverse(linear), transform[3], std::cbrt(std::abs(volume)), instance.first_curve});
         boxes.push_back(transformed(oracle->bounds(), linear, transform[3]));
     }
     bvh_ = Bvh(boxes);
@@ -58,11 +59,12 @@ ReferenceHit SceneOracle::trace(const Ray& ray) const {
     bool starts_inside = false;
     bvh_.traverse(BvhRay(origin, direction, ray.tmin, ray.tmax), [&](uint32_t index, double& tmax) {
         const Placed& placed = placed_[index];
-        const oracle::ExactRay local{placed.inverse * (origin - placed.translation), placed.inverse * direction,
-                                     ray.tmin, tmax};
+        const oracle::ExactRay local{placed.inverse * (origin - placed.translation),
+                                     placed.inverse * direction, ray.tmin, tmax};
         ReferenceHit hit = placed.oracle->trace(local, placed.oracle->options());
         starts_inside = starts_inside || hit.starts_inside;
-        if (!hit.is_hit() || (best.is_hit() && !(hit.t < best.t || (hit.t == best.t && index < best.instance))))
+        if (!hit.is_hit() ||
+            (best.is_hit() && !(hit.t < best.t || (hit.t == best.t && index < best.instance))))
             return false;
         hit.normal = glm::normalize(glm::transpose(placed.inverse) * hit.normal);
         hit.radius *= placed.scale;

@@ -14,7 +14,9 @@
 namespace strandlab::oracle {
 
 /// Distance between neighbouring floats of this size.
-inline double float_ulp(double size) { return size > 0 ? std::ldexp(1.0, std::max(std::ilogb(size), -126) - 23) : 0; }
+inline double float_ulp(double size) {
+    return size > 0 ? std::ldexp(1.0, std::max(std::ilogb(size), -126) - 23) : 0;
+}
 
 /// A radius (>= 0) in the variation; size: largest coordinate of its piece relative to the first point.
 inline double varied_radius(double radius, double size, const OracleOptions& options) {
@@ -39,7 +41,8 @@ inline double local_size(const SurfacePiece& piece) {
 inline std::array<double, 4> varied_radii(const SurfacePiece& piece, const OracleOptions& options) {
     const double size = options.radius_scale == 1 ? 0 : local_size(piece);
     std::array<double, 4> r{};
-    for (int i = 0; i < 4; ++i) r[i] = varied_radius(std::max(0.0, double(piece.control[i].w)), size, options);
+    for (int i = 0; i < 4; ++i)
+        r[i] = varied_radius(std::max(0.0, double(piece.control[i].w)), size, options);
     if (piece.straight) {
         r[1] = (2 * r[0] + r[3]) / 3;
         r[2] = (r[0] + 2 * r[3]) / 3;
@@ -83,12 +86,14 @@ Swept<Real> swept_piece(const Frame<Real>& frame, const SurfacePiece& piece, con
 }
 
 /// The vertices of a triangle, moved along their offsets from the centre line.
-inline std::array<glm::dvec3, 3> varied_vertices(const SurfaceTriangle& triangle, const OracleOptions& options) {
+inline std::array<glm::dvec3, 3> varied_vertices(const SurfaceTriangle& triangle,
+                                                 const OracleOptions& options) {
     std::array<glm::dvec3, 3> vertices;
     double size = 0;
     for (int i = 0; i < 3; ++i)
         for (int axis = 0; axis < 3; ++axis)
-            size = std::max(size, std::abs(double(triangle.vertex[i][axis]) - double(triangle.vertex[0][axis])));
+            size =
+                std::max(size, std::abs(double(triangle.vertex[i][axis]) - double(triangle.vertex[0][axis])));
     for (int i = 0; i < 3; ++i) {
         vertices[i] = glm::dvec3(triangle.vertex[i]);
         const glm::dvec3 centre(triangle.centre[i]), offset = vertices[i] - centre;

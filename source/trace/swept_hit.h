@@ -54,13 +54,15 @@ struct SweptPoint {
         tangent = Vec3(slope(s.x, u), slope(s.y, u), slope(s.z, u));
         Real size = 0;
         for (int i = 0; i < 3; ++i)
-            size += std::abs(s.x[i + 1] - s.x[i]) + std::abs(s.y[i + 1] - s.y[i]) + std::abs(s.z[i + 1] - s.z[i]);
+            size +=
+                std::abs(s.x[i + 1] - s.x[i]) + std::abs(s.y[i + 1] - s.y[i]) + std::abs(s.z[i + 1] - s.z[i]);
         const Real tiny = Real(1e-7) * size;
         speed = glm::length(tangent);
         regular = speed > tiny;
         if (!regular) {
             // C'' points along the curve where C' vanishes, backwards at u = 1.
-            tangent = Vec3(curvature(s.x, u), curvature(s.y, u), curvature(s.z, u)) * (u > Real(0.5) ? Real(-1) : Real(1));
+            tangent = Vec3(curvature(s.x, u), curvature(s.y, u), curvature(s.z, u)) *
+                      (u > Real(0.5) ? Real(-1) : Real(1));
             if (!(glm::length(tangent) > tiny))
                 tangent = Vec3(s.x[3] - s.x[0], s.y[3] - s.y[0], s.z[3] - s.z[0]);
         }
@@ -94,11 +96,14 @@ template <class Real>
 SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real z_min) {
     SweptResult<Real> result;
     const Real least_radius = s.least_radius();
-    const std::optional<RoundCone<Real>> cone = ends.straight ? std::optional<RoundCone<Real>>(s) : std::nullopt;
+    const std::optional<RoundCone<Real>> cone =
+        ends.straight ? std::optional<RoundCone<Real>>(s) : std::nullopt;
     const Components<Real> components = cone ? cone->components() : find_components(s);
     for (const Interval<Real>& component : components) {
-        Roots<Real> candidates = cone ? cone->stationary(component) : SurfaceRoots<Real>(s, component, 1).roots();
-        for (const Real u : {component.a, component.b, component.a + (component.b - component.a) / 2}) candidates.add(u);
+        Roots<Real> candidates =
+            cone ? cone->stationary(component) : SurfaceRoots<Real>(s, component, 1).roots();
+        for (const Real u : {component.a, component.b, component.a + (component.b - component.a) / 2})
+            candidates.add(u);
         Real entry = std::numeric_limits<Real>::infinity(), exit = -entry, at = 0;
         for (const Real u : candidates) {
             if (!(evaluate(s.r, u) > least_radius)) continue;

@@ -32,11 +32,13 @@ struct Swept {
     }
     /// Radii at and below this are rounding noise of a tip of radius zero, which is no surface.
     Real least_radius() const {
-        return 8 * std::numeric_limits<Real>::epsilon() * std::max(std::max(r[0], r[1]), std::max(r[2], r[3]));
+        return 8 * std::numeric_limits<Real>::epsilon() *
+               std::max(std::max(r[0], r[1]), std::max(r[2], r[3]));
     }
     /// h(u).
     Real drift(Real u, Real lambda) const {
-        return evaluate(x, u) * slope(x, u) + evaluate(y, u) * slope(y, u) - lambda * evaluate(r, u) * slope(r, u);
+        return evaluate(x, u) * slope(x, u) + evaluate(y, u) * slope(y, u) -
+               lambda * evaluate(r, u) * slope(r, u);
     }
 };
 
@@ -83,7 +85,8 @@ struct InsideRange {
     Real low, high, noise;
 
     InsideRange(const Scaled<Real, 6>& d, const Cubic<Real>& x, const Cubic<Real>& y, const Cubic<Real>& r) {
-        constexpr Real weights[7] = {1, Real(1) / 6, Real(1) / 15, Real(1) / 20, Real(1) / 15, Real(1) / 6, 1};
+        constexpr Real weights[7] = {1, Real(1) / 6, Real(1) / 15, Real(1) / 20, Real(1) / 15, Real(1) / 6,
+                                     1};
         low = high = d[0];
         for (int i = 1; i < 7; ++i) {
             low = std::min(low, d[i] * weights[i]);
@@ -275,7 +278,8 @@ class SurfaceRoots {
         if (variations == 1 && tight) {
             // |z'| sqrt(D) - |h| has the sign of H and simple roots.
             const auto f = [&](Real u) {
-                return std::abs(slope(swept_.z, u)) * swept_.half_chord(u) - std::abs(swept_.drift(u, lambda_));
+                return std::abs(slope(swept_.z, u)) * swept_.half_chord(u) -
+                       std::abs(swept_.drift(u, lambda_));
             };
             roots_.add(bracketed_root(f, part.a, part.b, leading_sign(polynomial)));
             return true;
@@ -305,9 +309,11 @@ class SurfaceRoots {
 
     void add_multiple(const Part& part, Real middle) {
         const Real slack = part.b - part.a;
-        const Real low = std::max(component_.a, part.a - slack), high = std::min(component_.b, part.b + slack);
+        const Real low = std::max(component_.a, part.a - slack),
+                   high = std::min(component_.b, part.b + slack);
         roots_.add(middle);
-        for (const Real side : {Real(1), Real(-1)}) roots_.add(polished(swept_, middle, low, high, lambda_, side));
+        for (const Real side : {Real(1), Real(-1)})
+            roots_.add(polished(swept_, middle, low, high, lambda_, side));
     }
 
     const Swept<Real>& swept_;

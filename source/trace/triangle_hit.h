@@ -25,7 +25,8 @@ bool hit_triangle(const std::array<glm::vec<3, Real>, 3>& p, TriangleHit<Real>& 
     for (int i = 0; i < 3; ++i) {
         const glm::vec<3, Real>&a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
         area[i] = a.x * b.y - a.y * b.x;
-        noise = std::max(noise, std::max(std::abs(a.x), std::abs(a.y)) * std::max(std::abs(b.x), std::abs(b.y)));
+        noise =
+            std::max(noise, std::max(std::abs(a.x), std::abs(a.y)) * std::max(std::abs(b.x), std::abs(b.y)));
         positive = std::max(positive, area[i]);
         negative = std::max(negative, -area[i]);
         sum += area[i];

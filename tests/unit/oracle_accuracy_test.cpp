@@ -1,8 +1,7 @@
 // The reference against dense search, and its double against its long double version.
+#include "base/parallel.h"
 #include "oracle_brute_force.h"
 #include "oracle_cases.h"
-
-#include "base/parallel.h"
 #include "trace/oracle.h"
 #include "trace/reference.h"
 
@@ -41,8 +40,9 @@ struct Tally {
             worst = std::max(worst, o.difference);
     }
     std::string text() const {
-        return fmt::format("{} rays, {} hits, {} decisive; missing {}, extra {}, elsewhere {}, |dt|/r <= {:.1e}", rays,
-                           hits, decisive, missing, extra, elsewhere, worst);
+        return fmt::format(
+            "{} rays, {} hits, {} decisive; missing {}, extra {}, elsewhere {}, |dt|/r <= {:.1e}", rays, hits,
+            decisive, missing, extra, elsewhere, worst);
     }
 };
 
@@ -70,7 +70,8 @@ Outcome against_search(const Curve& curve, const Ray& ray, Surface::Sweep sweep,
     const Surface surface = surface_of(curve, sweep, caps);
     const Reference reference = make_reference(surface, curves_of(curve), {&ray, 1});
     const brute_force::Search search(curve, ray);
-    const brute_force::Result expected = sweep == Surface::Sweep::disc ? search.discs() : search.spheres(caps);
+    const brute_force::Result expected =
+        sweep == Surface::Sweep::disc ? search.discs() : search.spheres(caps);
     const ReferenceHit& hit = reference.hits[0];
     Outcome outcome{reference.decisive[0] != 0, hit.is_hit(), expected.hit, 0};
     if (hit.is_hit() && expected.hit) outcome.difference = in_radii(ray, hit, expected.t);
@@ -123,13 +124,15 @@ TEST_P(OracleAccuracy, DoubleAgreesWithLongDouble) {
             1e-3);
         EXPECT_EQ(tally.missing + tally.extra + tally.elsewhere, 0u) << tally.text();
         EXPECT_LT(tally.worst, floor()) << tally.text();
-        fmt::print("{} {} long double: {}\n", name_of(family()), sweep == Surface::Sweep::disc ? "discs" : "spheres",
-                   tally.text());
+        fmt::print("{} {} long double: {}\n", name_of(family()),
+                   sweep == Surface::Sweep::disc ? "discs" : "spheres", tally.text());
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, OracleAccuracy, testing::Range(0, static_cast<int>(Family::count)),
-                         [](const auto& tested) { return std::string(name_of(static_cast<Family>(tested.param))); });
+                         [](const auto& tested) {
+                             return std::string(name_of(static_cast<Family>(tested.param)));
+                         });
 
 }  // namespace
 }  // namespace strandlab

@@ -85,11 +85,13 @@ class Search {
     }
     Vec3 slope(Real u) const {
         const Real v = 1 - u;
-        return Vec3(Real(3) * (v * v * (c_[1] - c_[0]) + 2 * u * v * (c_[2] - c_[1]) + u * u * (c_[3] - c_[2])));
+        return Vec3(Real(3) *
+                    (v * v * (c_[1] - c_[0]) + 2 * u * v * (c_[2] - c_[1]) + u * u * (c_[3] - c_[2])));
     }
     Real radius_slope(Real u) const {
         const Real v = 1 - u;
-        return 3 * (v * v * (c_[1].w - c_[0].w) + 2 * u * v * (c_[2].w - c_[1].w) + u * u * (c_[3].w - c_[2].w));
+        return 3 *
+               (v * v * (c_[1].w - c_[0].w) + 2 * u * v * (c_[2].w - c_[1].w) + u * u * (c_[3].w - c_[2].w));
     }
     /// Ray parameter nearest to C(u), and radius^2 - distance^2 of the ray line there.
     Real foot(Real u) const { return glm::dot(Vec3(at(u)) - o_, d_) / glm::dot(d_, d_); }

@@ -1,6 +1,5 @@
 // The hierarchy against plain loops: which items are visited, which hit of many is first.
 #include "oracle_cases.h"
-
 #include "trace/bvh.h"
 #include "trace/oracle.h"
 
@@ -82,7 +81,8 @@ TEST(OracleBvh, DoesNotDependOnThreads) {
 
 TEST(OracleBvh, LeavesOutWhatIsNoBox) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const std::vector<Box> boxes = {Box{}, Box{glm::vec3(nan), glm::vec3(1)}, Box{glm::vec3(0), glm::vec3(1)}};
+    const std::vector<Box> boxes = {Box{}, Box{glm::vec3(nan), glm::vec3(1)},
+                                    Box{glm::vec3(0), glm::vec3(1)}};
     const Bvh bvh(boxes);
     EXPECT_EQ(visited(bvh, BvhRay({0.5, 0.5, -1}, {0, 0, 1}, 0, 1e30)), std::vector<uint32_t>{2});
     EXPECT_TRUE(visited(Bvh(std::span<const Box>{}), BvhRay({0, 0, 0}, {0, 0, 1}, 0, 1)).empty());
@@ -99,7 +99,9 @@ TEST(OracleBvh, FirstHitOfManyCurvesIsThatOfAllTried) {
             Curve curve = random_curve(static_cast<Family>(i % 3), random);
             const glm::vec3 shift(random.signed_unit(), random.signed_unit(), random.signed_unit());
             for (glm::vec4& p : curve) p += glm::vec4(shift, 0);
-            SurfacePiece piece{curve, static_cast<uint32_t>(i), 0, 1, i % 2 == 0 && sweep == Surface::Sweep::sphere, true, true};
+            SurfacePiece piece{
+                curve, static_cast<uint32_t>(i), 0, 1, i % 2 == 0 && sweep == Surface::Sweep::sphere, true,
+                true};
             all.pieces.push_back(piece);
             single.push_back(all);
             single.back().pieces = {piece};

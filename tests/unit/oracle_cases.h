@@ -65,7 +65,8 @@ inline Curve random_curve(Family family, Random& random) {
         if (kind == 0 || kind == 2) move(1, glm::dvec3(c[0]));
         if (kind == 1 || kind == 2) move(2, glm::dvec3(c[3]));
         if (kind == 3)  // folds back on a line
-            for (const int i : {1, 2}) move(i, glm::dvec3(c[0]) + random.range(-1, 2) * glm::dvec3(c[3] - c[0]));
+            for (const int i : {1, 2})
+                move(i, glm::dvec3(c[0]) + random.range(-1, 2) * glm::dvec3(c[3] - c[0]));
         if (kind == 4) {  // a cusp or loop
             move(1, glm::dvec3(c[0]) + 1.5 * glm::dvec3(c[3] - c[0]));
             move(2, glm::dvec3(c[0]) - 0.5 * glm::dvec3(c[3] - c[0]));
@@ -97,6 +98,8 @@ inline Surface surface_of(const Curve& curve, Surface::Sweep sweep, Caps caps, b
     return surface;
 }
 
-inline Curves curves_of(const Curve& curve) { return {{curve}, {{0, 1}}}; }
+inline Curves curves_of(const Curve& curve) {
+    return {{curve}, {{0, 1}}};
+}
 
 }  // namespace strandlab::oracle_cases

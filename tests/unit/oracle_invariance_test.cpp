@@ -1,8 +1,7 @@
 // Moving, scaling, reversing and splitting a curve must change nothing. All coordinates are multiples of
 // 2^-12, so that each of these is exact in float.
-#include "oracle_cases.h"
-
 #include "base/parallel.h"
+#include "oracle_cases.h"
 #include "trace/oracle.h"
 #include "trace/scene_oracle.h"
 
@@ -15,8 +14,12 @@ using namespace oracle_cases;
 
 constexpr float grid = 1.0f / 4096;
 
-float snapped(float x) { return std::round(x / grid) * grid; }
-glm::vec3 snapped(const glm::vec3& v) { return {snapped(v.x), snapped(v.y), snapped(v.z)}; }
+float snapped(float x) {
+    return std::round(x / grid) * grid;
+}
+glm::vec3 snapped(const glm::vec3& v) {
+    return {snapped(v.x), snapped(v.y), snapped(v.z)};
+}
 
 Curve snapped(Curve c) {
     for (glm::vec4& p : c) p = glm::vec4(snapped(glm::vec3(p)), std::max(snapped(p.w), 2 * grid));
@@ -51,11 +54,13 @@ void expect_unchanged(Change change, ParameterOf u_of, double scale = 1, bool sa
                 Ray ray = before.ray;
                 change(changed, ray);
                 const ReferenceHit a = Oracle(surface).trace(before.ray), b = Oracle(changed).trace(ray);
-                ASSERT_EQ(a.is_hit(), b.is_hit()) << "case " << i << " caps " << name_of(caps) << " t " << a.t << ' ' << b.t;
+                ASSERT_EQ(a.is_hit(), b.is_hit())
+                    << "case " << i << " caps " << name_of(caps) << " t " << a.t << ' ' << b.t;
                 EXPECT_EQ(a.starts_inside, b.starts_inside) << "case " << i;
                 if (!a.is_hit()) return;
                 const double length = double(glm::length(before.ray.direction));
-                EXPECT_LT(std::abs(a.t - b.t) * length / a.radius, 1e-9) << "case " << i << " caps " << name_of(caps);
+                EXPECT_LT(std::abs(a.t - b.t) * length / a.radius, 1e-9)
+                    << "case " << i << " caps " << name_of(caps);
                 EXPECT_NEAR(a.u, u_of(b.u), 1e-4) << "case " << i;
                 EXPECT_NEAR(b.radius / a.radius, scale, 1e-3 * scale) << "case " << i;
                 EXPECT_NEAR(glm::length(b.normal), 1, 1e-12);
@@ -63,7 +68,9 @@ void expect_unchanged(Change change, ParameterOf u_of, double scale = 1, bool sa
         }
 }
 
-double same(double u) { return u; }
+double same(double u) {
+    return u;
+}
 
 template <class Point>
 void move_points(Surface& surface, Ray& ray, const Point& point, float radius_scale = 1) {
@@ -74,58 +81,71 @@ void move_points(Surface& surface, Ray& ray, const Point& point, float radius_sc
 }
 
 TEST(OracleInvariance, Rotation) {
-    expect_unchanged([](Surface& s, Ray& r) {
-        move_points(s, r, [](const glm::vec3& p, float) { return glm::vec3(-p.z, p.x, -p.y); });
-    }, same);
+    expect_unchanged(
+        [](Surface& s, Ray& r) {
+            move_points(s, r, [](const glm::vec3& p, float) { return glm::vec3(-p.z, p.x, -p.y); });
+        },
+        same);
 }
 
 TEST(OracleInvariance, Translation) {
-    expect_unchanged([](Surface& s, Ray& r) {
-        move_points(s, r, [](const glm::vec3& p, float w) { return p + w * glm::vec3(512, -1024, 256); });
-    }, same);
+    expect_unchanged(
+        [](Surface& s, Ray& r) {
+            move_points(s, r, [](const glm::vec3& p, float w) { return p + w * glm::vec3(512, -1024, 256); });
+        },
+        same);
 }
 
 TEST(OracleInvariance, Scale) {
     for (const float scale : {1.0f / 1048576, 1048576.0f, 3.0f}) {
-        expect_unchanged([scale](Surface& s, Ray& r) {
-            move_points(s, r, [scale](const glm::vec3& p, float) { return scale * p; }, scale);
-        }, same, double(scale));
+        expect_unchanged(
+            [scale](Surface& s, Ray& r) {
+                move_points(
+                    s, r, [scale](const glm::vec3& p, float) { return scale * p; }, scale);
+            },
+            same, double(scale));
     }
 }
 
 TEST(OracleInvariance, Reversal) {
-    expect_unchanged([](Surface& s, Ray&) {
-        std::swap(s.pieces[0].control[0], s.pieces[0].control[3]);
-        std::swap(s.pieces[0].control[1], s.pieces[0].control[2]);
-    }, [](double u) { return 1 - u; });
+    expect_unchanged(
+        [](Surface& s, Ray&) {
+            std::swap(s.pieces[0].control[0], s.pieces[0].control[3]);
+            std::swap(s.pieces[0].control[1], s.pieces[0].control[2]);
+        },
+        [](double u) { return 1 - u; });
 }
 
 TEST(OracleInvariance, Split) {
     // Open and flat ends of swept spheres are left out: through an open end a ray sees the closed joint.
-    expect_unchanged([](Surface& s, Ray&) {
-        const SurfacePiece whole = s.pieces[0];
-        const auto part = [&](double a, double b) {
-            SurfacePiece piece = whole;
-            piece.control = to_float(restricted(to_double(whole.control), a, b));
-            piece.u0 = float(a);
-            piece.u1 = float(b);
-            piece.begins_strand = a == 0;
-            piece.ends_strand = b == 1;
-            return piece;
-        };
-        s.pieces = {part(0, 0.5), part(0.5, 1)};
-    }, same, 1, false);
+    expect_unchanged(
+        [](Surface& s, Ray&) {
+            const SurfacePiece whole = s.pieces[0];
+            const auto part = [&](double a, double b) {
+                SurfacePiece piece = whole;
+                piece.control = to_float(restricted(to_double(whole.control), a, b));
+                piece.u0 = float(a);
+                piece.u1 = float(b);
+                piece.begins_strand = a == 0;
+                piece.ends_strand = b == 1;
+                return piece;
+            };
+            s.pieces = {part(0, 0.5), part(0.5, 1)};
+        },
+        same, 1, false);
 }
 
 TEST(OracleInvariance, Instance) {
     // The scene with a placed surface against the surface moved by hand: signed axes, scale 2, translation.
-    const glm::mat4x3 transform(glm::vec3(0, 2, 0), glm::vec3(0, 0, -2), glm::vec3(-2, 0, 0), glm::vec3(8, -4, 2));
+    const glm::mat4x3 transform(glm::vec3(0, 2, 0), glm::vec3(0, 0, -2), glm::vec3(-2, 0, 0),
+                                glm::vec3(8, -4, 2));
     parallel_for(count(500), [&](size_t i) {
         const Case c = make_case(i);
         const Surface surface = surface_of(c.curve, Surface::Sweep::sphere, Caps::round);
         Surface moved = surface;
         Ray ray = c.ray;
-        move_points(moved, ray, [&](const glm::vec3& p, float w) { return transform * glm::vec4(p, w); }, 2);
+        move_points(
+            moved, ray, [&](const glm::vec3& p, float w) { return transform * glm::vec4(p, w); }, 2);
         const std::vector<SurfaceInstance> instances = {{0, glm::mat4x3(1.0f), 5}, {0, transform, 7}};
         SurfaceInstance only = instances[1];
         const SceneOracle scene({&surface, 1}, {&only, 1});

@@ -1,9 +1,8 @@
 // Rays that random ones never are: exactly parallel, perpendicular, through the axis, through the plane of
 // symmetry, tangent. Coordinates are small binary fractions, so nothing is rounded away.
+#include "base/parallel.h"
 #include "oracle_brute_force.h"
 #include "oracle_cases.h"
-
-#include "base/parallel.h"
 #include "trace/oracle.h"
 #include "trace/reference.h"
 
@@ -27,9 +26,9 @@ Curve curve_of(std::array<glm::vec3, 4> p, float r0, float r1) {
 /// Straight, symmetric, S-shaped, folded, with zero end tangents.
 std::vector<Curve> structured_curves() {
     const std::vector<std::array<glm::vec3, 4>> shapes = {
-        {{{-1.5f, 0, 0}, {-0.5f, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}}},  // straight, uniform
-        {{{-1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 0, 0}}},              // straight, both end tangents zero
-        {{{-1, 0, 0}, {-0.5f, 1, 0}, {0.5f, 1, 0}, {1, 0, 0}}},        // arc, symmetric in x
+        {{{-1.5f, 0, 0}, {-0.5f, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}}},      // straight, uniform
+        {{{-1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 0, 0}}},                  // straight, both end tangents zero
+        {{{-1, 0, 0}, {-0.5f, 1, 0}, {0.5f, 1, 0}, {1, 0, 0}}},            // arc, symmetric in x
         {{{-1, -0.5f, 0}, {-0.25f, 1, 0}, {0.25f, -1, 0}, {1, 0.5f, 0}}},  // S
         {{{-1, 0, 0}, {1.5f, 1, 0}, {-1.5f, 1, 0}, {1, 0, 0}}},            // loop
         {{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}}},                    // one zero end tangent
@@ -37,19 +36,21 @@ std::vector<Curve> structured_curves() {
     };
     std::vector<Curve> curves;
     for (const auto& shape : shapes)
-        for (const auto& [r0, r1] : {std::pair{0.125f, 0.125f}, {0.25f, 0.0625f}, {0.0f, 0.25f}, {1 / 1024.0f, 1 / 1024.0f}})
+        for (const auto& [r0, r1] :
+             {std::pair{0.125f, 0.125f}, {0.25f, 0.0625f}, {0.0f, 0.25f}, {1 / 1024.0f, 1 / 1024.0f}})
             curves.push_back(curve_of(shape, r0, r1));
     return curves;
 }
 
 std::vector<Ray> structured_rays(float radius) {
     std::vector<Ray> rays;
-    const std::vector<glm::vec3> directions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1},
-                                               {0, 0, -1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+    const std::vector<glm::vec3> directions = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1},
+                                               {0, 0, -1}, {1, 1, 0},  {1, 0, 1}, {0, 1, 1},  {1, 1, 1}};
     std::vector<glm::vec3> targets;
     for (const float x : {-1.5f, -1.0f, -0.5f, 0.0f, 0.5f, 1.0f})
         for (const float y : {-0.5f, 0.0f, 0.25f, 0.75f}) targets.emplace_back(x, y, 0);
-    const std::vector<glm::vec3> shifts = {{0, 0, 0}, {0, radius / 2, 0}, {0, 0, radius / 2}, {radius / 2, 0, 0}, {0, radius, 0}};
+    const std::vector<glm::vec3> shifts = {
+        {0, 0, 0}, {0, radius / 2, 0}, {0, 0, radius / 2}, {radius / 2, 0, 0}, {0, radius, 0}};
     for (const glm::vec3& d : directions)
         for (const glm::vec3& p : targets)
             for (const glm::vec3& s : shifts) rays.push_back({p + s - 8.0f * d, 0, d, 1e30f});
@@ -82,7 +83,8 @@ void check(Surface::Sweep sweep, Caps caps) {
             ++tally.decisive;
             tally.hits += hit.is_hit();
             const brute_force::Search search(curve, rays[i]);
-            const brute_force::Result expected = sweep == Surface::Sweep::disc ? search.discs() : search.spheres(caps);
+            const brute_force::Result expected =
+                sweep == Surface::Sweep::disc ? search.discs() : search.spheres(caps);
             const auto differs = [&](bool other, long double t) {
                 if (other != hit.is_hit()) return true;
                 return hit.is_hit() && std::abs(double(t) - hit.t) > 1e-6 * hit.radius;
@@ -90,33 +92,43 @@ void check(Surface::Sweep sweep, Caps caps) {
             const bool wrong = differs(expected.hit, expected.t);
             if (wrong && ++tally.wrong < 5)
                 ADD_FAILURE() << fmt::format(
-                    "curve {} ray o {} {} {} d {} {} {}: t {} u {} radius {}, dense search t {} u {}", c, rays[i].origin.x,
-                    rays[i].origin.y, rays[i].origin.z, rays[i].direction.x, rays[i].direction.y, rays[i].direction.z,
-                    hit.t, hit.u, hit.radius, double(expected.t), double(expected.u));
+                    "curve {} ray o {} {} {} d {} {} {}: t {} u {} radius {}, dense search t {} u {}", c,
+                    rays[i].origin.x, rays[i].origin.y, rays[i].origin.z, rays[i].direction.x,
+                    rays[i].direction.y, rays[i].direction.z, hit.t, hit.u, hit.radius, double(expected.t),
+                    double(expected.u));
             if (differs(extended.is_hit(), extended.t) && ++tally.long_double_wrong < 5)
-                ADD_FAILURE() << fmt::format("curve {} ray {}: t {} u {}, long double t {} u {}", c, i, hit.t, hit.u,
-                                             extended.t, extended.u);
+                ADD_FAILURE() << fmt::format("curve {} ray {}: t {} u {}, long double t {} u {}", c, i, hit.t,
+                                             hit.u, extended.t, extended.u);
         }
     });
-    fmt::print("structured: {} rays, {} decisive, {} hits, {} differ from dense search, {} from long double\n",
-               tally.rays.load(), tally.decisive.load(), tally.hits.load(), tally.wrong.load(),
-               tally.long_double_wrong.load());
+    fmt::print(
+        "structured: {} rays, {} decisive, {} hits, {} differ from dense search, {} from long double\n",
+        tally.rays.load(), tally.decisive.load(), tally.hits.load(), tally.wrong.load(),
+        tally.long_double_wrong.load());
     EXPECT_EQ(tally.wrong.load(), 0u);
     EXPECT_EQ(tally.long_double_wrong.load(), 0u);
     EXPECT_GT(tally.hits.load(), tally.rays.load() / 20);
 }
 
-TEST(OracleStructured, SpheresRound) { check(Surface::Sweep::sphere, Caps::round); }
-TEST(OracleStructured, SpheresOpen) { check(Surface::Sweep::sphere, Caps::open); }
-TEST(OracleStructured, Discs) { check(Surface::Sweep::disc, Caps::open); }
+TEST(OracleStructured, SpheresRound) {
+    check(Surface::Sweep::sphere, Caps::round);
+}
+TEST(OracleStructured, SpheresOpen) {
+    check(Surface::Sweep::sphere, Caps::open);
+}
+TEST(OracleStructured, Discs) {
+    check(Surface::Sweep::disc, Caps::open);
+}
 
 TEST(OracleStructured, TangentRaysEnd) {
     // Grazing a cylinder exactly along a line of its side, and across it: either answer is right.
-    const Curve cylinder = curve_of({{{-1.5f, 0, 0}, {-0.5f, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}}}, 0.25f, 0.25f);
+    const Curve cylinder =
+        curve_of({{{-1.5f, 0, 0}, {-0.5f, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}}}, 0.25f, 0.25f);
     for (const Surface::Sweep sweep : {Surface::Sweep::sphere, Surface::Sweep::disc}) {
         const Surface surface = surface_of(cylinder, sweep, Caps::round);
         const Oracle oracle(surface);
-        for (const Ray& ray : {Ray{{-4, 0.25f, 0}, 0, {1, 0, 0}, 1e30f}, Ray{{0, 0.25f, -4}, 0, {0, 0, 1}, 1e30f}}) {
+        for (const Ray& ray :
+             {Ray{{-4, 0.25f, 0}, 0, {1, 0, 0}, 1e30f}, Ray{{0, 0.25f, -4}, 0, {0, 0, 1}, 1e30f}}) {
             const ReferenceHit hit = oracle.trace(ray);
             if (hit.is_hit()) {
                 EXPECT_GT(hit.t, 2);

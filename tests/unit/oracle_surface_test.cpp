@@ -1,7 +1,6 @@
 // Caps, starting inside, triangles, invalid input: small surfaces whose hits are known exactly.
-#include "oracle_cases.h"
-
 #include "base/error.h"
+#include "oracle_cases.h"
 #include "trace/oracle.h"
 #include "trace/reference.h"
 #include "trace/scene_oracle.h"
@@ -20,12 +19,13 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Radius 1 along x from 0 to 4.
 Surface cylinder(Sweep sweep, Caps caps, bool straight = false) {
-    const Curve c{glm::vec4(0, 0, 0, 1), glm::vec4(4 / 3.0f, 0, 0, 1), glm::vec4(8 / 3.0f, 0, 0, 1), glm::vec4(4, 0, 0, 1)};
+    const Curve c{glm::vec4(0, 0, 0, 1), glm::vec4(4 / 3.0f, 0, 0, 1), glm::vec4(8 / 3.0f, 0, 0, 1),
+                  glm::vec4(4, 0, 0, 1)};
     return surface_of(c, sweep, caps, straight);
 }
 
-ReferenceHit first(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction, float tmin = 0,
-                   float tmax = 1e30f) {
+ReferenceHit first(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
+                   float tmin = 0, float tmax = 1e30f) {
     return Oracle(surface).trace(Ray{origin, tmin, direction, tmax});
 }
 
@@ -71,8 +71,10 @@ TEST(OracleCaps, HitsOnTheSideOfTheEndDiscMiss) {
     EXPECT_FALSE(first(cylinder(Sweep::disc, Caps::flat), {-5, 1.5f, 0}, {1, 0, 0}).is_hit());
     // Beyond the end plane the swept discs have nothing, the swept balls a round end.
     EXPECT_FALSE(first(cylinder(Sweep::disc, Caps::flat), {-0.5f, 5, 0}, {0, -1, 0}).is_hit());
-    EXPECT_NEAR(first(cylinder(Sweep::disc, Caps::round), {-0.5f, 5, 0}, {0, -1, 0}).t, 5 - std::sqrt(0.75), 1e-14);
-    EXPECT_NEAR(first(cylinder(Sweep::sphere, Caps::round), {-0.5f, 5, 0}, {0, -1, 0}).t, 5 - std::sqrt(0.75), 1e-14);
+    EXPECT_NEAR(first(cylinder(Sweep::disc, Caps::round), {-0.5f, 5, 0}, {0, -1, 0}).t, 5 - std::sqrt(0.75),
+                1e-14);
+    EXPECT_NEAR(first(cylinder(Sweep::sphere, Caps::round), {-0.5f, 5, 0}, {0, -1, 0}).t, 5 - std::sqrt(0.75),
+                1e-14);
 }
 
 TEST(OracleInside, CurrentPartIsNotSeen) {
@@ -96,7 +98,8 @@ TEST(OracleInside, CurrentPartIsNotSeen) {
 
 TEST(OracleInside, OtherPartsAreSeen) {
     // A horseshoe: from within one leg, the other leg is hit.
-    const Curve c{glm::vec4(-2, 0, 0, 0.25f), glm::vec4(-2, 6, 0, 0.25f), glm::vec4(2, 6, 0, 0.25f), glm::vec4(2, 0, 0, 0.25f)};
+    const Curve c{glm::vec4(-2, 0, 0, 0.25f), glm::vec4(-2, 6, 0, 0.25f), glm::vec4(2, 6, 0, 0.25f),
+                  glm::vec4(2, 0, 0, 0.25f)};
     for (const Sweep sweep : {Sweep::sphere, Sweep::disc}) {
         const Surface surface = surface_of(c, sweep, Caps::round);
         const ReferenceHit hit = first(surface, {-2, 0.25f, 0}, {1, 0, 0});
@@ -115,9 +118,11 @@ TEST(OracleDegenerate, PointsAndNestedSpheres) {
     EXPECT_FALSE(first(surface_of(point, Sweep::disc, Caps::open), {1, 2, -5}, {0, 0, 1}).is_hit());
     EXPECT_NEAR(first(surface_of(point, Sweep::disc, Caps::round), {1, 2, -5}, {0, 0, 1}).t, 7.5, 1e-14);
     // Radius grows faster than the curve: only the larger end ball is seen.
-    const Curve nested{glm::vec4(0, 0, 0, 0.25f), glm::vec4(0.1f, 0, 0, 1), glm::vec4(0.2f, 0, 0, 1.5f), glm::vec4(0.5f, 0, 0, 2)};
+    const Curve nested{glm::vec4(0, 0, 0, 0.25f), glm::vec4(0.1f, 0, 0, 1), glm::vec4(0.2f, 0, 0, 1.5f),
+                       glm::vec4(0.5f, 0, 0, 2)};
     for (const bool straight : {false, true}) {
-        const ReferenceHit hit = first(surface_of(nested, Sweep::sphere, Caps::round, straight), {-8, 0, 0}, {1, 0, 0});
+        const ReferenceHit hit =
+            first(surface_of(nested, Sweep::sphere, Caps::round, straight), {-8, 0, 0}, {1, 0, 0});
         EXPECT_NEAR(hit.t, 6.5, 1e-14);
         EXPECT_EQ(hit.u, 1);
         EXPECT_TRUE(hit.on_cap);
@@ -180,9 +185,8 @@ TEST(OracleReference, DecisiveRays) {
     const std::vector<Ray> rays = {
         {{2, 0, 5}, 0, {0, 0, -1}, 1e30f},        // through the middle
         {{2, 0.9995f, 5}, 0, {0, 0, -1}, 1e30f},  // within 1e-3 of the silhouette
-        {{2, 1.0005f, 5}, 0, {0, 0, -1}, 1e30f},
-        {{2, 1.5f, 5}, 0, {0, 0, -1}, 1e30f},      // beside it
-        {{0.001f, 0, 5}, 0, {0, 0, -1}, 1e30f},    // within 1e-3 (of the parameter) of the open end
+        {{2, 1.0005f, 5}, 0, {0, 0, -1}, 1e30f}, {{2, 1.5f, 5}, 0, {0, 0, -1}, 1e30f},  // beside it
+        {{0.001f, 0, 5}, 0, {0, 0, -1}, 1e30f},  // within 1e-3 (of the parameter) of the open end
         {{0.02f, 0, 5}, 0, {0, 0, -1}, 1e30f}};
     const Reference reference = make_reference(surface, curves_of(surface.pieces[0].control), rays);
     EXPECT_EQ(reference.decisive, (std::vector<uint8_t>{1, 0, 0, 1, 0, 1}));
