@@ -266,21 +266,21 @@ Curves in_three(const Curve& curve) {
 }
 
 TEST(Rocaps, JointsOfStrandsDoNotShow) {
-    for (const char* family :
-         {"gentle", "curl", "hard taper", "near-parallel", "inside", "degenerate", "fat curl"})
-        for (const std::string caps : {"round", "open"}) {
-            const IntersectorErrors errors =
-                errors_over<float>("rocaps", caps, answered_family(family, caps), in_three);
-            // In open tubes a ray along the axis can come in through another curve of the strand.
-            const bool blind =
-                caps == "open" && (std::string(family) == "near-parallel" ||
-                                   std::string(family) == "fat curl" || std::string(family) == "hard taper");
-            expect_within(errors, {family, 0,
-                                   blind                             ? 1
-                                   : std::string(family) == "inside" ? 5e-3
-                                                                     : 0,
-                                   blind ? 1. : 1e-3, 1e-3, 1});
-        }
+    // Against the oracle of the uncut curve: also rays that start inside, near a joint, see nothing of it.
+    // What the other curve of a joint looks like is only guessed there.
+    for (const char* family : {"gentle", "curl", "taper", "hard taper", "near-parallel", "grazing", "inside",
+                               "degenerate", "fat curl"})
+        expect_within(errors_over<float>("rocaps", "round", answered_family(family), in_three),
+                      {family, 0, std::string(family) == "inside" ? 2e-3 : 0, 0, 4e-5, 3e-3});
+}
+
+TEST(Rocaps, OpenStrandsAreClosedAtTheirJoints) {
+    for (const char* family : {"gentle", "curl", "hard taper", "near-parallel", "fat curl"}) {
+        std::vector<Answered> all = answered_family(family);
+        parallel_for(all.size(),
+                     [&](size_t i) { all[i] = answer(all[i].pair, in_three(all[i].pair.curve), "open"); });
+        expect_within(errors_over<float>("rocaps", "open", all, in_three), {family, 0, 0, 0, 4e-5, 3e-3});
+    }
 }
 
 TEST(Rocaps, KinksOfPolylinesHaveNoHoles) {
