@@ -24,7 +24,9 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageLog* log) {
         vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError;
     info.messageType =
         vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation | vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance;
-    info.pfnUserCallback = reinterpret_cast<decltype(info.pfnUserCallback)>(&on_message);
+    // Vulkan-Hpp 1.4 has its own callback type; by way of void (*)() a compiler accepts either.
+    info.pfnUserCallback =
+        reinterpret_cast<decltype(info.pfnUserCallback)>(reinterpret_cast<void (*)()>(&on_message));
     info.pUserData = log;
     return info;
 }
