@@ -11,7 +11,7 @@
 namespace strandlab {
 namespace {
 
-const NpyItem one_float{"<f4", {}}, one_int{"<i4", {}}, three_floats{"<f4", {3}}, ray_item{"<f4", {8}};
+const NpyItem one_float{"<f4", {}}, one_int{"<i4", {}}, three_floats{"<f4", {3}};
 
 template <class Item>
 std::vector<Item> read_column(const std::string& path, const NpyItem& item, size_t rays) {
@@ -24,8 +24,7 @@ std::vector<Item> read_column(const std::string& path, const NpyItem& item, size
 }  // namespace
 
 Rays load_ray_file(const std::string& path) {
-    const std::vector<Ray> rays = read_npy<Ray>(ByteSource::from_file(path), ray_item);
-    LoadedRays loaded = rays_from_floats(path, {reinterpret_cast<const float*>(rays.data()), 8 * rays.size()});
+    LoadedRays loaded = load_rays(path);
     if (loaded.invalid > 0)
         warn("{}: {} rays with non-finite numbers, no direction, tmin < 0 or tmin > tmax count as misses", path,
              loaded.invalid);

@@ -75,7 +75,7 @@ Comparison compare_with(const Scene& scene, const Curves& curves, const Measured
                     .decisive = reference.decisive,
                     .margin = DecisiveMargin{}.radius,
                     .curves = &curves,
-                    .object_to_world = transforms,
+                    .world_from_object = transforms,
                     .residual_of_curves = against_curves,
                     .hit_or_miss_only = rays.shadow});
 }

@@ -210,6 +210,12 @@ std::vector<ParameterInfo> parameters() {
     return table;
 }
 
+Tolerance tolerance(const BuildOptions& options) {
+    if (options.parameters.is("offset", "none")) return {.wrong = 5e-4, .distance_p99 = 2e-2,
+                                                         .reason = "the driver's own triangle test rounds in world space"};
+    return {0.5, 1e3, "offset=round moves hits off the triangles that they are compared with"};
+}
+
 }  // namespace
 
 Primitive dots() {
@@ -222,6 +228,7 @@ Primitive dots() {
         .build = build,
         .shaders = {.intersection = "", .closest_hit = "dots.rchit", .any_hit = ""},
         .cpu = dots_cpu(),
+        .tolerance = tolerance,
     };
 }
 

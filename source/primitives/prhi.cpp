@@ -83,6 +83,11 @@ std::vector<ParameterInfo> parameters() {
             std::move(splits)};
 }
 
+Tolerance tolerance(const BuildOptions& options) {
+    if (is_robust(options.parameters)) return {};
+    return {0.5, 10, "the published frame rounds to ulps of the distance, and misses burn all iterations"};
+}
+
 }  // namespace
 
 Primitive prhi() {
@@ -95,6 +100,7 @@ Primitive prhi() {
         .build = build,
         .shaders = {.intersection = "prhi.rint", .closest_hit = "curve.rchit", .any_hit = ""},
         .cpu = {intersect<float>, intersect<double>},
+        .tolerance = tolerance,
     };
 }
 

@@ -43,6 +43,14 @@ struct CpuIntersectors {
     void (*finish_precise)(const Geometry&, size_t leaf, const Ray&, LeafHit<double>&) = nullptr;
 };
 
+/// What a primitive promises on decisive rays of ordinary hair, against its own surface: what `validate`
+/// holds it to.
+struct Tolerance {
+    double wrong = 1e-4;         // share of rays with a wrong hit, miss, strand or place
+    double distance_p99 = 1e-3;  // |dt| in radii; 1.5 times the p99 of ulp(t) / r where that is more
+    std::string reason = {};     // why it is looser than that
+};
+
 /// What a caller asks of a primitive besides its parameters.
 struct BuildOptions {
     Parameters parameters;
@@ -63,6 +71,8 @@ struct Primitive {
     Geometry (*build)(const Curves&, const BuildOptions&) = nullptr;
     PrimitiveShaders shaders;
     CpuIntersectors cpu;
+    /// What it promises with these options; none: the defaults of Tolerance.
+    Tolerance (*tolerance)(const BuildOptions&) = nullptr;
 };
 
 /// All primitives, in the order in which reports list them.

@@ -24,14 +24,13 @@ PrimitiveFacts facts_of(const PrimitiveChoice& choice, Caps wanted_caps) {
     return facts;
 }
 
-DeviceFacts facts_of(const Device& device) {
-    const DeviceInfo& info = device.info();
+DeviceFacts facts_of(const DeviceInfo& info, bool validation_layers) {
     return {info.name,
             info.driver,
             info.api_version,
             info.kind,
             info.has_ray_tracing_hardware,
-            device.has_validation()};
+            validation_layers};
 }
 
 std::optional<Summary> ResultRow::trace_time() const {

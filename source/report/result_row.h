@@ -57,7 +57,7 @@ struct DeviceFacts {
 
     std::string_view device_class() const { return hardware_traversal ? "hardware" : "software"; }
 };
-DeviceFacts facts_of(const Device& device);
+DeviceFacts facts_of(const DeviceInfo& info, bool validation_layers);
 
 /// A finished case. What was not measured is empty, never 0.
 struct ResultRow {

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "trace/cpu_trace.h"
 
-#include <tbb/info.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cmath>
@@ -109,15 +109,15 @@ TraceDevice::TraceDevice(const DeviceOptions& options) {
         if (options.validation)
             fail(ExitCode::usage, "--validation: {} does not use Vulkan; leave one of the two out", options.selector);
         is_double_ = options.selector == "cpu-double";
-        name_ = options.selector;
-        driver_ = fmt::format("C++ {}, {} threads", is_double_ ? "double" : "float", tbb::info::default_concurrency());
-        class_ = "cpu";
+        info_.name = options.selector;
+        info_.driver = fmt::format("C++ {}, {} threads", is_double_ ? "double" : "float",
+                                   tbb::this_task_arena::max_concurrency());
+        info_.api_version = "none";
+        info_.kind = "cpu";
         return;
     }
     gpu_ = std::make_unique<Device>(options);
-    name_ = gpu_->info().name;
-    driver_ = gpu_->info().driver;
-    class_ = gpu_->info().has_ray_tracing_hardware ? "hardware" : "software";
+    info_ = gpu_->info();
 }
 
 TraceDevice::~TraceDevice() = default;

@@ -24,10 +24,9 @@ class TraceDevice {
     explicit TraceDevice(const DeviceOptions& options);
     ~TraceDevice();
 
-    const std::string& name() const { return name_; }
-    const std::string& driver() const { return driver_; }
-    /// "software" or "hardware" traversal, "cpu": results of different classes never share a chart.
-    const std::string& device_class() const { return class_; }
+    const std::string& name() const { return info_.name; }
+    /// The Vulkan device; for the C++ versions a name, a driver and the kind "cpu".
+    const DeviceInfo& info() const { return info_; }
     bool has_validation() const;
     /// Throws Error (device_lost) naming the first message when the validation layers said anything.
     void check_validation() const;
@@ -38,7 +37,7 @@ class TraceDevice {
   private:
     std::unique_ptr<Device> gpu_;  // none for the C++ versions
     bool is_double_ = false;
-    std::string name_, driver_, class_;
+    DeviceInfo info_;
 };
 
 }  // namespace strandlab

@@ -1,0 +1,97 @@
+#include "commands/embree_case.h"
+
+#include "measure/ray_error.h"
+#include "primitives/curved_pieces.h"
+#include "trace/embree_reference.h"
+
+#include <chrono>
+#include <thread>
+
+namespace strandlab {
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+Hits hits_of(const std::vector<ReferenceHit>& reference) {
+    Hits hits;
+    hits.hits.resize(reference.size());
+    hits.normals.resize(reference.size());
+    for (size_t i = 0; i < reference.size(); ++i) {
+        if (!reference[i].is_hit()) continue;
+        hits.hits[i] = {float(reference[i].t), float(reference[i].u), reference[i].curve, 0};
+        hits.normals[i] = glm::vec3(reference[i].normal);
+    }
+    return hits;
+}
+
+}  // namespace
+
+ResultRow embree_row(const CaseInput& input, const MeasuredRays& rays, ResultRow row) {
+    const Surface disc = curved_surface(input.scene.models[0], Surface::Sweep::disc, Caps::open);
+    const auto start = std::chrono::steady_clock::now();
+    const EmbreeScene scene(disc);
+    row.primitive = {"embree", "embree round bezier", {}, Caps::open, Caps::open};
+    row.device.name = row.context.cpu;
+    row.device.driver = "Embree " + embree_version();
+    row.device.kind = "cpu";
+    row.device.hardware_traversal = false;
+    row.device.api_version = "none";
+    SceneCost cost;
+    cost.builds.build_ms = milliseconds_since(start);
+    cost.builds.built_bytes = cost.builds.kept_bytes = scene.bytes();
+    cost.leaf_count = disc.pieces.size();
+    row.cost = cost;
+    std::vector<Hit> hits(rays.rays.rays.size());
+    for (uint32_t i = 0; i < input.samples; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        scene.trace(rays.rays.rays, std::span<Hit>(hits));
+        row.trace_ms.push_back(milliseconds_since(begin));
+    }
+    if (rays.sample.empty()) return row;
+    std::vector<ReferenceHit> sample(rays.sample_rays.size());
+    scene.trace(rays.sample_rays, std::span<ReferenceHit>(sample));
+    const Hits sample_hits = hits_of(sample);
+    const Reference own = make_scene_reference(input.scene, {&disc, 1}, input.curves, rays.sample_rays);
+    row.intersector_error = compare_with(input.scene, input.curves, rays, sample_hits, own, false);
+    row.model_error = compare_with(input.scene, input.curves, rays, sample_hits, rays.common, true);
+    return row;
+}
+
+SecondOpinion second_opinion(const Curves& curves, const MeasuredRays& rays, const Hits& sample_hits,
+                             const Surface& surface, const Reference& reference) {
+    const EmbreeScene embree(surface);
+    std::vector<ReferenceHit> embree_hits(rays.sample_rays.size());
+    embree.trace(rays.sample_rays, std::span<ReferenceHit>(embree_hits));
+    const Hits other = hits_of(embree_hits);
+    const auto input = [&](const Hits& hits, std::span<const ReferenceHit> against) {
+        return ComparisonInput{.rays = rays.sample_rays, .hits = hits.hits, .reference = against, .curves = &curves};
+    };
+    const ComparisonInput ours_input = input(sample_hits, reference.hits), embree_input = input(other, reference.hits),
+                          between_input = input(sample_hits, embree_hits);
+    const RayErrors ours(ours_input), theirs(embree_input), between(between_input);
+    const EmbreeDefinition definition = embree_definition(surface);
+    const auto fine = [](const RayError& error) {
+        return error.outcome == Outcome::match || error.outcome == Outcome::agreed_miss;
+    };
+    SecondOpinion opinion;
+    for (size_t i = 0; i < rays.sample_rays.size(); ++i) {
+        const ReferenceHit& hit = reference.hits[i];
+        // Its definition ends where the ray starts inside, or where strand ends are closed otherwise.
+        if (!reference.decisive[i] || hit.starts_inside || (hit.on_cap && !definition.same_ends)) continue;
+        ++opinion.rays;
+        const bool our_right = fine(ours.of(i)), their_right = fine(theirs.of(i));
+        if ((our_right && their_right) || fine(between.of(i)))
+            ++opinion.agree;
+        else if (our_right)
+            ++opinion.embree_wrong;
+        else if (their_right)
+            ++opinion.primitive_wrong;
+        else
+            ++opinion.both_wrong;
+    }
+    return opinion;
+}
+
+}  // namespace strandlab
