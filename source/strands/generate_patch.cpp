@@ -30,8 +30,9 @@ Curves make_patch(const Parameters& parameters) {
     return grow_strands(parameters, [&] {
         return [&](size_t strand, std::span<glm::vec4> points) {
             Random random(seed, 1, strand);
-            const glm::dvec3 root(0.5 * size * random.signed_unit(), 0, 0.5 * size * random.signed_unit());
-            const glm::dvec3 tilt(lean * random.signed_unit(), 0, lean * random.signed_unit());
+            // Braces: their items are drawn in order, those of parentheses in any.
+            const glm::dvec3 root{0.5 * size * random.signed_unit(), 0, 0.5 * size * random.signed_unit()};
+            const glm::dvec3 tilt{lean * random.signed_unit(), 0, lean * random.signed_unit()};
             const glm::dvec3 up = glm::normalize(glm::dvec3(0, 1, 0) + tilt);
             const glm::dvec3 side = any_orthogonal(up), other = glm::cross(up, side);
             const double own_length = length * (1 + variation * random.signed_unit());

@@ -47,7 +47,8 @@ double grow_rod(const RodStyle& style, Random& random, const glm::dvec3& u, cons
     const glm::dvec3 normal = glm::normalize(u / style.semi_axes);
     glm::dvec3 combed = without_component(comb, normal);
     combed = glm::length(combed) > 1e-6 ? glm::normalize(combed) : any_orthogonal(normal);
-    const glm::dvec3 scatter(random.signed_unit(), random.signed_unit(), random.signed_unit());
+    // Braces: their items are drawn in order, those of parentheses in any.
+    const glm::dvec3 scatter{random.signed_unit(), random.signed_unit(), random.signed_unit()};
     const double length = style.length * (1 + style.length_variation * random.signed_unit());
     const double gravity = style.gravity * (1 + 0.25 * random.signed_unit());
     const double layer = style.layer * random.uniform();
