@@ -106,7 +106,6 @@ SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real 
             candidates.add(u);
         Real entry = std::numeric_limits<Real>::infinity(), exit = -entry, at = 0;
         for (const Real u : candidates) {
-            if (!(evaluate(s.r, u) > least_radius)) continue;
             const Real z = evaluate(s.z, u), chord = s.half_chord(u);
             exit = std::max(exit, z + chord);
             if (!(z - chord < entry)) continue;
@@ -118,6 +117,8 @@ SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real 
             if (exit >= z_min) result.starts_inside = true;
             continue;
         }
+        // Entered exactly at a tip of radius zero, which is no surface; no other point is the entry.
+        if (!(evaluate(s.r, at) > least_radius)) continue;
         const bool on_cap = (at == 0 && ends.begins_strand) || (at == 1 && ends.ends_strand);
         if (on_cap && ends.caps != Caps::round) continue;
         const SweptPoint<Real> p(s, at);

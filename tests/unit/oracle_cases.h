@@ -98,8 +98,6 @@ inline Surface surface_of(const Curve& curve, Surface::Sweep sweep, Caps caps, b
     return surface;
 }
 
-inline Curves curves_of(const Curve& curve) {
-    return {{curve}, {{0, 1}}};
-}
+inline Curves curves_of(const Curve& curve) { return {{curve}, {{0, 1}}}; }
 
 }  // namespace strandlab::oracle_cases

@@ -3,9 +3,12 @@
 #include "base/parallel.h"
 #include "oracle_cases.h"
 #include "trace/oracle.h"
+#include "trace/reference.h"
 #include "trace/scene_oracle.h"
 
 #include <gtest/gtest.h>
+
+#include <atomic>
 
 namespace strandlab {
 namespace {
@@ -14,12 +17,8 @@ using namespace oracle_cases;
 
 constexpr float grid = 1.0f / 4096;
 
-float snapped(float x) {
-    return std::round(x / grid) * grid;
-}
-glm::vec3 snapped(const glm::vec3& v) {
-    return {snapped(v.x), snapped(v.y), snapped(v.z)};
-}
+float snapped(float x) { return std::round(x / grid) * grid; }
+glm::vec3 snapped(const glm::vec3& v) { return {snapped(v.x), snapped(v.y), snapped(v.z)}; }
 
 Curve snapped(Curve c) {
     for (glm::vec4& p : c) p = glm::vec4(snapped(glm::vec3(p)), std::max(snapped(p.w), 2 * grid));
@@ -47,13 +46,20 @@ void expect_unchanged(Change change, ParameterOf u_of, double scale = 1, bool sa
     for (const Surface::Sweep sweep : {Surface::Sweep::sphere, Surface::Sweep::disc})
         for (const Caps caps : {Caps::round, Caps::open, Caps::flat}) {
             if (!same_side_caps && sweep == Surface::Sweep::sphere && caps != Caps::round) continue;
+            std::atomic<size_t> undecided{0};
             parallel_for(count(1500), [&](size_t i) {
                 const Case before = make_case(i);
                 const Surface surface = surface_of(before.curve, sweep, caps);
                 Surface changed = surface;
                 Ray ray = before.ray;
                 change(changed, ray);
-                const ReferenceHit a = Oracle(surface).trace(before.ray), b = Oracle(changed).trace(ray);
+                const Reference reference =
+                    make_reference(surface, curves_of(before.curve), {&before.ray, 1});
+                if (!reference.decisive[0] || !reference.decisive_place[0]) {
+                    ++undecided;
+                    return;
+                }
+                const ReferenceHit a = reference.hits[0], b = Oracle(changed).trace(ray);
                 ASSERT_EQ(a.is_hit(), b.is_hit())
                     << "case " << i << " caps " << name_of(caps) << " t " << a.t << ' ' << b.t;
                 EXPECT_EQ(a.starts_inside, b.starts_inside) << "case " << i;
@@ -61,16 +67,20 @@ void expect_unchanged(Change change, ParameterOf u_of, double scale = 1, bool sa
                 const double length = double(glm::length(before.ray.direction));
                 EXPECT_LT(std::abs(a.t - b.t) * length / a.radius, 1e-9)
                     << "case " << i << " caps " << name_of(caps);
-                EXPECT_NEAR(a.u, u_of(b.u), 1e-4) << "case " << i;
+                // A curve that folds back on itself passes the same place at two parameters.
+                const bool same_point =
+                    glm::length(point_at(to_double(before.curve), a.u) -
+                                point_at(to_double(before.curve), u_of(b.u))) < 1e-4 * a.radius;
+                EXPECT_TRUE(same_point || std::abs(a.u - u_of(b.u)) < 1e-4)
+                    << "case " << i << ' ' << a.u << ' ' << b.u;
                 EXPECT_NEAR(b.radius / a.radius, scale, 1e-3 * scale) << "case " << i;
                 EXPECT_NEAR(glm::length(b.normal), 1, 1e-12);
             });
+            EXPECT_LT(undecided.load(), count(1500) / 20);
         }
 }
 
-double same(double u) {
-    return u;
-}
+double same(double u) { return u; }
 
 template <class Point>
 void move_points(Surface& surface, Ray& ray, const Point& point, float radius_scale = 1) {
