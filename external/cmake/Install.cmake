@@ -7,17 +7,30 @@ if(TARGET strandlab_program)
   install(TARGETS strandlab_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# All headers but those of the program, and those that show a library which the package does not depend on.
+# All headers but those of the program, and those that show, themselves or through another header, a
+# library which the package does not depend on.
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/source source/*.h)
 list(FILTER headers EXCLUDE REGEX "^commands/")
+set(private "<vulkan/|<nlohmann/|<embree|<OpenImageIO/|<CLI/")
+set(found_private TRUE)
+while(found_private)
+  set(found_private FALSE)
+  foreach(header ${headers})
+    file(STRINGS source/${header} private_includes REGEX "#include.*(${private})" LIMIT_COUNT 1)
+    if(private_includes)
+      list(REMOVE_ITEM headers ${header})
+      string(APPEND private "|\"${header}\"")
+      set(found_private TRUE)
+    endif()
+  endforeach()
+endwhile()
 foreach(header ${headers})
-  file(STRINGS source/${header} private_includes
-       REGEX "#include.*(<vulkan/|<nlohmann/|<embree|<OpenImageIO/|<CLI/|gpu/vulkan\\.h)" LIMIT_COUNT 1)
-  if(NOT private_includes)
-    get_filename_component(folder ${header} DIRECTORY)
-    install(FILES source/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/strandlab/${folder})
-  endif()
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES source/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/strandlab/${folder})
 endforeach()
+# The texts that C++ and GLSL share: layouts, and what the kernels of primitives/kernel.h include.
+install(DIRECTORY shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/strandlab FILES_MATCHING PATTERN "*.h")
+
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT strandlab-targets NAMESPACE strandlab:: DESTINATION ${package_dir})
