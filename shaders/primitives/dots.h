@@ -102,8 +102,8 @@ FUNCTION void dots_finish(real3 direction, real tmin, DotsJoint start, DotsJoint
     real3 tangent = chord_length > real(0) ? chord / chord_length : cross(start.axis_0, start.axis_1);
     real step;
     real3 round_normal = dots_round_normal(direction, tangent, offset, radius, step);
-    normal = round_normals ? round_normal
-                           : dots_flat_normal(direction, start, end, quad, triangle, width_factor);
+    normal =
+        round_normals ? round_normal : dots_flat_normal(direction, start, end, quad, triangle, width_factor);
     if (round_offset && chord_length > real(0))
         dots_move(direction, tangent, chord_length, offset, step, tmin, t, along);
 }

@@ -85,14 +85,15 @@ FUNCTION bool round_cone_entry(real3 start, real ra, real3 end, real rb, bool op
 }
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
-FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 start, real4 end, uint piece,
-                            uint pieces, bool open_start, bool open_end, OUT(real) t, OUT(real) u,
+FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 start, real4 end,
+                            uint piece, uint pieces, bool open_start, bool open_end, OUT(real) t, OUT(real) u,
                             OUT(real3) normal) {
     real3 first = real3(start);
     real3 last = real3(end);
     RayFrame frame = make_ray_frame(origin, direction, first, (last - first) * real(0.5));
     RoundConeHit hit;
-    if (!round_cone_entry(to_frame(frame, first), start.w, to_frame(frame, last), end.w, open_start, open_end, hit))
+    if (!round_cone_entry(to_frame(frame, first), start.w, to_frame(frame, last), end.w, open_start, open_end,
+                          hit))
         return false;
     t = ray_parameter(frame, hit.z);
     u = (real(piece) + hit.u) / real(pieces);

@@ -18,14 +18,14 @@ struct PrhiCubic {
 };
 
 struct PrhiPoint {
-    real4 c;        // C, r
-    real4 d;        // C', r'
-    real4 second;   // C'', r''
+    real4 c;       // C, r
+    real4 d;       // C', r'
+    real4 second;  // C'', r''
 };
 
 struct PrhiStep {
-    real dv;  // from v to the base plane of the entry, in parameters
-    real s;   // depth of the entry (or closest approach), counted from C(v)
+    real dv;      // from v to the base plane of the entry, in parameters
+    real s;       // depth of the entry (or closest approach), counted from C(v)
     bool enters;  // on the outside of the cone, not a phantom
 };
 
@@ -170,7 +170,8 @@ FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiStep found) {
     real s = side * sqrt(max(prhi_inside(better.c), real(0)));
     real w = better.c.x * better.d.x + better.c.y * better.d.y;
     real slope = better.d.x * better.d.x + better.d.y * better.d.y + better.c.x * better.second.x +
-                 better.c.y * better.second.y - s * better.second.z - better.d.z * (better.c.w * better.d.w - w) / s;
+                 better.c.y * better.second.y - s * better.second.z -
+                 better.d.z * (better.c.w * better.d.w - w) / s;
     real step = (s * better.d.z - w) / slope;
     // So short that the derivative carries the point along. Longer ones (or NaN) come from the silhouette,
     // where entry and exit meet and Newton has no say.
@@ -291,9 +292,9 @@ FUNCTION bool prhi_stands_still(real4 at, real4 near, real4 middle, real4 far) {
 }
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
-FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1, real4 p2,
-                             real4 p3, uint piece, uint pieces, bool robust, uint iterations, bool cap_start,
-                             bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
+FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
+                             real4 p2, real4 p3, uint piece, uint pieces, bool robust, uint iterations,
+                             bool cap_start, bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     // The published frame has its origin at the ray's: everything is relative to it, near or far.
     real3 reference = robust ? real3(p0) : origin;
     PrhiCubic cubic;

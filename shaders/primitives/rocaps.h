@@ -40,8 +40,8 @@ FUNCTION real4 cubic_second_derivative(FrameCubic c, real u) {
 // Distance of a curve point from the ray line.
 FUNCTION real axis_distance(real4 p) { return sqrt(p.x * p.x + p.y * p.y); }
 
-// A lower bound, on a concave piece [left, right] of the cubic b0 + c1 s + c2 s^2 + c3 s^3 that is positive on
-// the left and not on the right, of its root: a Newton step from the right stays right of the root, the
+// A lower bound, on a concave piece [left, right] of the cubic b0 + c1 s + c2 s^2 + c3 s^3 that is positive
+// on the left and not on the right, of its root: a Newton step from the right stays right of the root, the
 // chord from the left end to that point stays left of it.
 FUNCTION real concave_root_bound(real b0, real c1, real c2, real c3, real left, real right) {
     real value_left = ((c3 * left + c2) * left + c1) * left + b0;

@@ -4,7 +4,8 @@
 
 // Entry into the capsule between two curve points: depth and parameter, both roots computed from the plain
 // discriminant; one of them mirrored where it lies on the other nappe.
-FUNCTION bool published_capsule_entry(real4 p, real4 q, bool open_start, bool open_end, OUT(real) z, OUT(real) u) {
+FUNCTION bool published_capsule_entry(real4 p, real4 q, bool open_start, bool open_end, OUT(real) z,
+                                      OUT(real) u) {
     real4 axis = q - p;
     real a = axis.w * axis.w - axis.x * axis.x - axis.y * axis.y;
     real e = axis.z * axis.z - a;
@@ -94,9 +95,10 @@ FUNCTION real published_foot(FrameCubic c, real z, real u, real first_step) {
 }
 
 // Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax.
-FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1, real4 c2,
-                               real4 c3, uint piece, uint pieces, bool begins_strand, bool ends_strand,
-                               bool open_ends, OUT(real) t, OUT(real) u, OUT(real3) normal) {
+FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
+                               real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
+                               bool ends_strand, bool open_ends, OUT(real) t, OUT(real) u,
+                               OUT(real3) normal) {
     // The frame: x across the plane of the ray and the curve's middle tangent, z along the ray.
     real size = sqrt(dot(direction, direction));
     real3 n = direction / size;
@@ -109,7 +111,8 @@ FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tm
         across = sqrt(dot(x_axis, x_axis));
     }
     x_axis = x_axis / across;
-    real3 middle = (real3(c0) - origin) + (real3(c3) - origin) + ((real3(c1) - origin) + (real3(c2) - origin)) * real(3);
+    real3 middle =
+        (real3(c0) - origin) + (real3(c3) - origin) + ((real3(c1) - origin) + (real3(c2) - origin)) * real(3);
     if (dot(middle, x_axis) < real(0)) x_axis = -x_axis;
     real3 y_axis = cross(n, x_axis);
     real3 v0 = real3(c0) - origin;

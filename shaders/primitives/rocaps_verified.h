@@ -2,9 +2,9 @@
 // 2024 only find candidates: each is thick enough to hold its piece of the curve, and the parameter that
 // it gives is then refined on the swept sphere itself.
 
-// A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at u:
-// Newton on g = h + z' sqrt(D), h = x x' + y y' - r r', where g grows about as it does at a minimum (there h =
-// -z' sqrt(D)), else the exact minimum of the tangent cone; outside the tube towards the ray line.
+// A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at
+// u: Newton on g = h + z' sqrt(D), h = x x' + y y' - r r', where g grows about as it does at a minimum (there
+// h = -z' sqrt(D)), else the exact minimum of the tangent cone; outside the tube towards the ray line.
 FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
     real h = p.x * d.x + p.y * d.y - p.w * d.w;
     real lateral = d.x * d.x + d.y * d.y;
@@ -69,8 +69,8 @@ FUNCTION void refine_entry(FrameCubic c, real low, real high, real longest, real
     }
 }
 
-// Whether the point at depth z of the ray lies inside the straight continuation of a strand beyond the curve's
-// end p, for the length of the curve's tangent `away` there: rays that start there start inside.
+// Whether the point at depth z of the ray lies inside the straight continuation of a strand beyond the
+// curve's end p, for the length of the curve's tangent `away` there: rays that start there start inside.
 FUNCTION bool starts_in_continuation(real4 p, real3 away, real z) {
     real3 v = real3(-p.x, -p.y, z - p.z);
     real s = dot(v, away) / dot(away, away);
@@ -82,9 +82,9 @@ FUNCTION bool starts_in_continuation(real4 p, real3 away, real z) {
 struct VerifiedSearch {
     real a;
     real b;
-    real bend;     // at least |C''| + |r''| on [a, b]
-    real step;     // length of a capsule in u
-    real slack;    // rounding error of positions in the frame
+    real bend;   // at least |C''| + |r''| on [a, b]
+    real step;   // length of a capsule in u
+    real slack;  // rounding error of positions in the frame
     real z_min;
     bool joint_start_inside;  // at u = 0 (1) the strand goes on, and the ray starts inside it there
     bool joint_end_inside;
@@ -93,8 +93,8 @@ struct VerifiedSearch {
     bool splits_runs;  // gaps within a capsule matter: a part of the solid may have to be passed as a whole
 };
 
-// Where the ray line leaves the balls of [a, b] for a moment although it meets those at a and b; b when it does
-// not. The dip of D between is where h = -D' / 2 changes its sign.
+// Where the ray line leaves the balls of [a, b] for a moment although it meets those at a and b; b when it
+// does not. The dip of D between is where h = -D' / 2 changes its sign.
 FUNCTION real gap_between(FrameCubic c, real a, real b) {
     real4 d;
     real4 dd;
@@ -149,7 +149,8 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
         // A candidate beyond the gap belongs to the run that follows.
         if (finished || (passes && run_u <= start)) {
             if (!passes && search.joint_end_inside) run_counts = false;
-            bool at_open_end = (search.open_start && run_u <= real(0)) || (search.open_end && run_u >= real(1));
+            bool at_open_end =
+                (search.open_start && run_u <= real(0)) || (search.open_end && run_u >= real(1));
             if (run_counts && !at_open_end && run_z >= search.z_min && run_z < z) {
                 z = run_z;
                 u = run_u;
@@ -218,14 +219,15 @@ FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, 
     return z >= search.z_min && u >= a - margin && u <= b + margin;
 }
 
-// Whether the ray can meet the balls on [a, b], whose end points are p and q, at depths in [z_min, z_max]: the
-// chord, thick enough to hold what leaves it by at most `bulge`.
+// Whether the ray can meet the balls on [a, b], whose end points are p and q, at depths in [z_min, z_max]:
+// the chord, thick enough to hold what leaves it by at most `bulge`.
 FUNCTION bool near_chord(real4 p, real4 q, real bulge, real z_min, real z_max) {
     real reach = max(p.w, q.w) + bulge;
     real dx = q.x - p.x;
     real dy = q.y - p.y;
     real length_squared = dx * dx + dy * dy;
-    real s = length_squared > real(0) ? clamp(-(p.x * dx + p.y * dy) / length_squared, real(0), real(1)) : real(0);
+    real s =
+        length_squared > real(0) ? clamp(-(p.x * dx + p.y * dy) / length_squared, real(0), real(1)) : real(0);
     real x = p.x + s * dx;
     real y = p.y + s * dy;
     return x * x + y * y <= reach * reach && min(p.z, q.z) - reach <= z_max && max(p.z, q.z) + reach >= z_min;
@@ -238,11 +240,12 @@ FUNCTION real largest_bend(FrameCubic c, real a, real b) {
            max(abs(first.w), abs(last.w));
 }
 
-// Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax. epsilon bounds how far
-// the axis of a capsule may leave the curve, in radii.
-FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1, real4 c2,
-                              real4 c3, uint piece, uint pieces, bool begins_strand, bool ends_strand,
-                              bool open_ends, real epsilon, OUT(real) t, OUT(real) u, OUT(real3) normal) {
+// Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax. epsilon bounds how
+// far the axis of a capsule may leave the curve, in radii.
+FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
+                              real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
+                              bool ends_strand, bool open_ends, real epsilon, OUT(real) t, OUT(real) u,
+                              OUT(real3) normal) {
     real3 reference = real3(c0);
     real3 middle = ((real3(c1) - reference) + (real3(c2) - reference) + (real3(c3) - reference)) * real(0.25);
     RayFrame frame = make_ray_frame(origin, direction, reference, middle);
@@ -293,7 +296,8 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     // A chord of length step leaves the curve by at most bend step^2 / 8.
     real radius = max(thinnest, real(0.05) * largest.w);
     search.step = real(1);
-    if (search.bend > real(8) * epsilon * radius) search.step = sqrt(real(8) * epsilon * radius / search.bend);
+    if (search.bend > real(8) * epsilon * radius)
+        search.step = sqrt(real(8) * epsilon * radius / search.bend);
     search.step = min(max(search.step, real(1.0 / 4096.0)), search.b - search.a);
 
     real z = z_max;

@@ -3,7 +3,7 @@
 // exact at a distance of a million lengths as at one.
 
 struct RayFrame {
-    real3 axis_x;     // axis_x, axis_y, axis_z: orthonormal, axis_z along the ray
+    real3 axis_x;  // axis_x, axis_y, axis_z: orthonormal, axis_z along the ray
     real3 axis_y;
     real3 axis_z;
     real3 reference;  // a point of the primitive

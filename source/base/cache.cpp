@@ -171,9 +171,7 @@ fs::path default_cache_folder() {
     return {};
 }
 
-void set_cache_enabled(bool value) {
-    enabled.store(value, std::memory_order_relaxed);
-}
+void set_cache_enabled(bool value) { enabled.store(value, std::memory_order_relaxed); }
 
 std::optional<std::vector<std::byte>> cache_read(std::string_view key) {
     if (!enabled.load(std::memory_order_relaxed)) return std::nullopt;

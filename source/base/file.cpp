@@ -99,9 +99,7 @@ FileWriter::~FileWriter() {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void FileWriter::fail_to_write(int error) const {
-    fail_at(path_, "write", error);
-}
+void FileWriter::fail_to_write(int error) const { fail_at(path_, "write", error); }
 
 void FileWriter::write(const void* data, size_t bytes) {
     if (const int error = write_all(descriptor_, static_cast<const char*>(data), bytes)) fail_to_write(error);

@@ -12,13 +12,9 @@ std::atomic<bool> quiet{false};
 
 }  // namespace
 
-void set_quiet(bool value) {
-    quiet.store(value, std::memory_order_relaxed);
-}
+void set_quiet(bool value) { quiet.store(value, std::memory_order_relaxed); }
 
-bool is_quiet() {
-    return quiet.load(std::memory_order_relaxed);
-}
+bool is_quiet() { return quiet.load(std::memory_order_relaxed); }
 
 void log_detail::write(std::string_view kind, std::string_view message) {
     write_message(fmt::format("strandlab: {}{}", kind, message));

@@ -46,9 +46,7 @@ void Parameters::set_all(std::string_view context, const std::vector<ParameterIn
     }
 }
 
-double Parameters::number(const std::string& name) const {
-    return to_number(values_.at(name)).value();
-}
+double Parameters::number(const std::string& name) const { return to_number(values_.at(name)).value(); }
 
 std::string Parameters::to_string(const std::vector<ParameterInfo>& table, bool all) const {
     std::string text;

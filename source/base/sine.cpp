@@ -24,14 +24,10 @@ SinCos sin_cos(double x) {
     const double r = (x - quadrant * high) - quadrant * low;
     const double s = r * nested_series(r * r, 2), c = nested_series(r * r, 1);
     switch (static_cast<int64_t>(quadrant) & 3) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
+        case 0: return {s, c};
+        case 1: return {c, -s};
+        case 2: return {-s, -c};
+        default: return {-c, s};
     }
 }
 

@@ -30,13 +30,9 @@ void write_error(const std::string& text) {
 
 }  // namespace
 
-bool is_terminal(int descriptor) {
-    return ::isatty(descriptor) == 1 && environment("TERM") != "dumb";
-}
+bool is_terminal(int descriptor) { return ::isatty(descriptor) == 1 && environment("TERM") != "dumb"; }
 
-bool may_colour(int descriptor) {
-    return is_terminal(descriptor) && environment("NO_COLOR").empty();
-}
+bool may_colour(int descriptor) { return is_terminal(descriptor) && environment("NO_COLOR").empty(); }
 
 int terminal_width(int descriptor, int otherwise) {
     winsize size{};

@@ -22,15 +22,16 @@ Basis basis_named(const std::string& name) {
 }  // namespace
 
 void ModelArguments::add_to(CLI::App& app, bool required) {
-    CLI::Option* option =
-        app.add_option("MODEL", models, "model file (.hair, .tfx, .data, .npy), scene (.json) or generate:NAME,...");
+    CLI::Option* option = app.add_option(
+        "MODEL", models, "model file (.hair, .tfx, .data, .npy), scene (.json) or generate:NAME,...");
     if (required) option->required();
     app.add_option("--basis", basis, "how points become curves: centripetal, uniform, linear, bspline")
         ->capture_default_str();
-    radius_option_ = app.add_option("--radius", radius, "radius at the root, scene units; overrides the file's")
-                         ->capture_default_str();
-    radius_tip_option_ = app.add_option("--radius-tip", radius_tip, "radius at the tip, scene units")
-                             ->capture_default_str();
+    radius_option_ =
+        app.add_option("--radius", radius, "radius at the root, scene units; overrides the file's")
+            ->capture_default_str();
+    radius_tip_option_ =
+        app.add_option("--radius-tip", radius_tip, "radius at the tip, scene units")->capture_default_str();
     app.add_option("--unit-scale", unit_scale, "file units to scene units (0.01: centimetres to metres)")
         ->capture_default_str();
 }
@@ -50,7 +51,8 @@ void PrimitiveArguments::add_to(CLI::App& app, bool several) {
     // Values hold commas and colons: every option takes one.
     option->allow_extra_args(false);
     if (!several) option->expected(1);
-    app.add_option("--caps", caps, "strand ends: round, open or flat (default: round, or what the primitive can do)");
+    app.add_option("--caps", caps,
+                   "strand ends: round, open or flat (default: round, or what the primitive can do)");
 }
 
 std::vector<PrimitiveChoice> PrimitiveArguments::choices() const {
@@ -61,7 +63,8 @@ std::vector<PrimitiveChoice> PrimitiveArguments::choices() const {
     for (const Primitive& primitive : strandlab::primitives()) {
         if (primitive.diagnostic) continue;
         // Nobody asked this primitive in particular: where it cannot do the mode it uses its own.
-        const bool can = std::find(primitive.caps.begin(), primitive.caps.end(), mode) != primitive.caps.end();
+        const bool can =
+            std::find(primitive.caps.begin(), primitive.caps.end(), mode) != primitive.caps.end();
         all.push_back(parse_primitive(primitive.name, can ? name_of(mode) : ""));
     }
     return all;
@@ -75,7 +78,8 @@ Caps PrimitiveArguments::scene_caps() const {
 }
 
 void DeviceArguments::add_to(CLI::App& app) {
-    app.add_option("--device", device, "part of a device's name, its kind (cpu, discrete...) or number; see strandlab info");
+    app.add_option("--device", device,
+                   "part of a device's name, its kind (cpu, discrete...) or number; see strandlab info");
     app.add_flag("--validation", validation, "Vulkan validation layers; a message is an error");
 }
 
@@ -87,7 +91,8 @@ std::string primitive_help() {
         for (const Caps mode : primitive.caps) caps.emplace_back(name_of(mode));
         text += fmt::format("           caps: {}\n", list_of(caps));
         for (const ParameterInfo& p : primitive.parameters) {
-            const std::string range = p.choices.empty() ? fmt::format("{:g} to {:g}", p.low, p.high) : list_of(p.choices);
+            const std::string range =
+                p.choices.empty() ? fmt::format("{:g} to {:g}", p.low, p.high) : list_of(p.choices);
             text += fmt::format("           {}={}: {} ({})\n", p.name, p.default_value, p.help, range);
         }
     }
@@ -98,7 +103,9 @@ Resolution parse_resolution(const std::string& text) {
     const auto parts = split(text, 'x');
     const auto width = parts.size() == 2 ? to_number(parts[0]) : std::nullopt;
     const auto height = parts.size() == 2 ? to_number(parts[1]) : std::nullopt;
-    const auto whole = [](const std::optional<double>& n) { return n && *n >= 1 && *n <= 32768 && *n == std::floor(*n); };
+    const auto whole = [](const std::optional<double>& n) {
+        return n && *n >= 1 && *n <= 32768 && *n == std::floor(*n);
+    };
     if (!whole(width) || !whole(height))
         fail(ExitCode::usage, "--resolution {}: must be WIDTHxHEIGHT, each from 1 to 32768", text);
     return {static_cast<uint32_t>(*width), static_cast<uint32_t>(*height)};

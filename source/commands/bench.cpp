@@ -10,6 +10,7 @@
 #include "report/images.h"
 #include "report/result_writer.h"
 #include "report/shading.h"
+#include "trace/embree_reference.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -25,7 +26,7 @@ struct Options {
     DeviceArguments device;
     uint32_t repeat = 3;
     std::string json, csv, images, leaf_order = "auto";
-    bool no_embree = false, no_compaction = false;
+    bool no_embree = false, no_compaction = false, no_normals = false;
 };
 
 SceneOptions::Order leaf_order_named(const std::string& name) {
@@ -49,7 +50,8 @@ class Bench {
         size_ = options.rays.resolution.empty() ? (slow ? Resolution{320, 180} : Resolution{1920, 1080})
                                                 : parse_resolution(options.rays.resolution);
         // An idle GPU needs a third of a second of work before it runs at its full clock.
-        warm_up_ms_ = slow ? 0 : 300;
+        // Elsewhere one trace: drivers compile at the first dispatch.
+        warm_up_ms_ = slow ? 1e-6 : 300;
         if (!options.images.empty()) prepare_images();
         fmt::print("{}\n", device_line());
     }
@@ -62,12 +64,13 @@ class Bench {
         CaseInput input{device_, scene, curves, options_.repeat, warm_up_ms_, {}};
         input.options.order = leaf_order_named(options_.leaf_order);
         input.options.compact = !options_.no_compaction;
-        input.options.normals = options_.rays.error_rays > 0 || !options_.images.empty();
+        input.options.normals = !options_.no_normals;
         input.options.ray_extent = object_extent(scene, rays.extent());
         std::vector<std::vector<ResultRow>> rows(rays.sets().size());
         for (const PrimitiveChoice& choice : choices_) {
             const PreparedCase prepared = prepare_case(input, choice);
-            for (size_t i = 0; i < rows.size(); ++i) rows[i].push_back(run_one(input, prepared, rays.sets()[i]));
+            for (size_t i = 0; i < rows.size(); ++i)
+                rows[i].push_back(run_one(input, prepared, rays.sets()[i]));
         }
         if (!options_.no_embree && embree_available() && scene.is_plain())
             for (size_t i = 0; i < rows.size(); ++i)
@@ -84,8 +87,8 @@ class Bench {
   private:
     std::string device_line() const {
         const DeviceFacts facts = facts_of(device_.info(), device_.has_validation());
-        return fmt::format("{}, {}, {} traversal, {} x {}, {} samples, validation layers {}", facts.name, facts.driver,
-                           facts.device_class(), size_.width, size_.height, options_.repeat,
+        return fmt::format("{}, {}, {} traversal, {} x {}, {} samples, validation layers {}", facts.name,
+                           facts.driver, facts.device_class(), size_.width, size_.height, options_.repeat,
                            facts.validation_layers ? "on: times are not comparable" : "off");
     }
 
@@ -156,7 +159,8 @@ int run(Options& options) {
 Command bench_command() {
     return {"bench", "compare primitives: time, memory and error",
             "  strandlab bench\n"
-            "  strandlab bench hair.hair --primitive lss:segments=8 --primitive prhi --rays primary --rays shadow\n"
+            "  strandlab bench hair.hair --primitive lss:segments=8 --primitive prhi --rays primary --rays "
+            "shadow\n"
             "  strandlab bench hair.tfx --resolution 1280x720 --json results.jsonl --images pictures\n" +
                 primitive_help(),
             [](CLI::App& app) -> RunCommand {
@@ -170,10 +174,15 @@ Command bench_command() {
                     ->check(CLI::Range(1u, 10000u));
                 app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
                 app.add_option("--csv", options->csv, "append rows to this file");
-                app.add_option("--images", options->images, "folder for a picture of every case with primary rays");
-                app.add_option("--leaf-order", options->leaf_order, "order of leaves in builds: auto, file, median")
+                app.add_option("--images", options->images,
+                               "folder for a picture of every case with primary rays");
+                app.add_option("--leaf-order", options->leaf_order,
+                               "order of leaves in builds: auto, file, median")
                     ->capture_default_str();
-                app.add_flag("--no-compaction", options->no_compaction, "keep acceleration structures as built");
+                app.add_flag("--no-compaction", options->no_compaction,
+                             "keep acceleration structures as built");
+                app.add_flag("--no-normals", options->no_normals, "write t, u and curve only: 16 bytes a ray")
+                    ->excludes("--images");
                 app.add_flag("--no-embree", options->no_embree, "no row for Embree's round curves");
                 return [options] { return run(*options); };
             }};

@@ -17,7 +17,7 @@ std::vector<fs::path> folders() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
     if (!error) {
-        all.push_back(program.parent_path() / "models");                         // BUILD/strandlab
+        all.push_back(program.parent_path() / "models");                          // BUILD/strandlab
         all.push_back(program.parent_path() / "share" / "strandlab" / "models");  // PREFIX/bin/strandlab
     }
     all.emplace_back("models");
@@ -35,7 +35,8 @@ std::vector<std::string> bundled_models() {
         if (!models.empty()) break;
     }
     if (models.empty())
-        fail(ExitCode::bad_input, "no bundled models were found; name a MODEL, or set STRANDLAB_MODELS to their folder");
+        fail(ExitCode::bad_input,
+             "no bundled models were found; name a MODEL, or set STRANDLAB_MODELS to their folder");
     std::sort(models.begin(), models.end());
     return models;
 }

@@ -27,7 +27,8 @@ struct GlobalOptions {
 };
 
 void add_global_options(CLI::App& app, GlobalOptions& options) {
-    app.add_option("--threads", options.threads, "processor threads to use (0: all); results do not depend on it")
+    app.add_option("--threads", options.threads,
+                   "processor threads to use (0: all); results do not depend on it")
         ->default_str("0");
     app.add_flag("--quiet", options.quiet, "no progress and no information on standard error");
     app.add_flag("--no-cache", options.no_cache, "neither read nor write $XDG_CACHE_HOME/strandlab");
@@ -58,13 +59,15 @@ std::string version_text() {
 
 int run_command_line(int argc, char** argv) {
     const std::vector<Command> commands = all_commands();
-    CLI::App app("Which primitive to ray-trace hair with, and what it costs in time, memory and error.", "strandlab");
+    CLI::App app("Which primitive to ray-trace hair with, and what it costs in time, memory and error.",
+                 "strandlab");
     app.set_version_flag("--version", fmt::format("strandlab {}", version_text()));
     app.require_subcommand(1);
     app.fallthrough();
-    app.footer("Exit codes: 0 ok, 1 a threshold exceeded, 2 usage, 3 no device or feature,\n"
-               "4 device lost or out of memory, 5 bad input.\n"
-               "Help of a command, with examples: strandlab COMMAND --help");
+    app.footer(
+        "Exit codes: 0 ok, 1 a threshold exceeded, 2 usage, 3 no device or feature,\n"
+        "4 device lost or out of memory, 5 bad input.\n"
+        "Help of a command, with examples: strandlab COMMAND --help");
     GlobalOptions global;
     add_global_options(app, global);
     RunCommand run;
@@ -85,7 +88,8 @@ int run_command_line(int argc, char** argv) {
     set_cache_enabled(!global.no_cache);
     std::unique_ptr<tbb::global_control> limit;
     if (global.threads > 0) {
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, global.threads);
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      global.threads);
         setenv("LP_NUM_THREADS", std::to_string(global.threads).c_str(), 0);  // lavapipe's
     }
     return run();

@@ -60,24 +60,31 @@ int run(const Options& options) {
 }  // namespace
 
 Command compare_command() {
-    return {"compare", "errors of hits that another program wrote",
-            "  strandlab compare --curves c.npy --rays r.npy --hits DIR --surface sphere --caps round\n"
-            "  strandlab compare --curves c.npy --strands s.npy --rays r.npy --hits DIR --surface lss:segments=4 --json\n",
-            [](CLI::App& app) -> RunCommand {
-                auto options = std::make_shared<Options>();
-                app.add_option("--curves", options->curves, "curves, float32 [N,4,4], or any model or scene")->required();
-                app.add_option("--strands", options->strands, "strands, int32 [S,2] (first curve, count)");
-                app.add_option("--rays", options->rays, "rays, float32 [M,8]")->required();
-                app.add_option("--hits", options->hits, "folder with t, curve and, if there, u and normal (.npy)")->required();
-                app.add_option("--surface", options->surface,
-                               "what the hits should lie on: sphere, disc (exact sweeps), or a primitive's own surface, "
-                               "as NAME[:key=value,...]")
-                    ->capture_default_str();
-                app.add_option("--caps", options->caps, "strand ends of that surface: round, open, flat")->capture_default_str();
-                app.add_option("--error-rays", options->error_rays, "compare about this many rays (0: all)")->capture_default_str();
-                app.add_flag("--json", options->json, "one JSON object instead of tables");
-                return [options] { return run(*options); };
-            }};
+    return {
+        "compare", "errors of hits that another program wrote",
+        "  strandlab compare --curves c.npy --rays r.npy --hits DIR --surface sphere --caps round\n"
+        "  strandlab compare --curves c.npy --strands s.npy --rays r.npy --hits DIR --surface lss:segments=4 "
+        "--json\n",
+        [](CLI::App& app) -> RunCommand {
+            auto options = std::make_shared<Options>();
+            app.add_option("--curves", options->curves, "curves, float32 [N,4,4], or any model or scene")
+                ->required();
+            app.add_option("--strands", options->strands, "strands, int32 [S,2] (first curve, count)");
+            app.add_option("--rays", options->rays, "rays, float32 [M,8]")->required();
+            app.add_option("--hits", options->hits, "folder with t, curve and, if there, u and normal (.npy)")
+                ->required();
+            app.add_option(
+                   "--surface", options->surface,
+                   "what the hits should lie on: sphere, disc (exact sweeps), or a primitive's own surface, "
+                   "as NAME[:key=value,...]")
+                ->capture_default_str();
+            app.add_option("--caps", options->caps, "strand ends of that surface: round, open, flat")
+                ->capture_default_str();
+            app.add_option("--error-rays", options->error_rays, "compare about this many rays (0: all)")
+                ->capture_default_str();
+            app.add_flag("--json", options->json, "one JSON object instead of tables");
+            return [options] { return run(*options); };
+        }};
 }
 
 }  // namespace strandlab

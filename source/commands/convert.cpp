@@ -18,7 +18,8 @@ struct Options {
 };
 
 int run(const Options& options) {
-    if (options.model.models.size() != 1) fail(ExitCode::usage, "convert takes one MODEL, not {}", options.model.models.size());
+    if (options.model.models.size() != 1)
+        fail(ExitCode::usage, "convert takes one MODEL, not {}", options.model.models.size());
     const std::string& path = options.model.models.front();
     const CurveOptions curve_options = options.model.curve_options();
     ImportReport report;
@@ -52,10 +53,12 @@ Command convert_command() {
                 options->model.add_to(app, true);
                 app.add_option("--strands", options->strands, "strands of an .npy model, int32 [S,2]");
                 app.add_option("-o,--output", options->output, "file to write: .hair or .npy")->required();
-                app.add_option("--points-per-curve", options->write.points_per_curve, ".hair: points that each curve adds")
+                app.add_option("--points-per-curve", options->write.points_per_curve,
+                               ".hair: points that each curve adds")
                     ->capture_default_str()
                     ->check(CLI::Range(1u, 64u));
-                app.add_option("--write-strands", options->write.strands_path, ".npy: file for the strands, int32 [S,2]");
+                app.add_option("--write-strands", options->write.strands_path,
+                               ".npy: file for the strands, int32 [S,2]");
                 return [options] { return run(*options); };
             }};
 }

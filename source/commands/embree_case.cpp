@@ -66,9 +66,11 @@ SecondOpinion second_opinion(const Curves& curves, const MeasuredRays& rays, con
     embree.trace(rays.sample_rays, std::span<ReferenceHit>(embree_hits));
     const Hits other = hits_of(embree_hits);
     const auto input = [&](const Hits& hits, std::span<const ReferenceHit> against) {
-        return ComparisonInput{.rays = rays.sample_rays, .hits = hits.hits, .reference = against, .curves = &curves};
+        return ComparisonInput{
+            .rays = rays.sample_rays, .hits = hits.hits, .reference = against, .curves = &curves};
     };
-    const ComparisonInput ours_input = input(sample_hits, reference.hits), embree_input = input(other, reference.hits),
+    const ComparisonInput ours_input = input(sample_hits, reference.hits),
+                          embree_input = input(other, reference.hits),
                           between_input = input(sample_hits, embree_hits);
     const RayErrors ours(ours_input), theirs(embree_input), between(between_input);
     const EmbreeDefinition definition = embree_definition(surface);

@@ -13,9 +13,9 @@ ResultRow embree_row(const CaseInput& input, const MeasuredRays& rays, ResultRow
 
 /// What became of the decisive rays on which a primitive and Embree disagree.
 struct SecondOpinion {
-    uint64_t rays = 0;           // decisive rays where Embree's definition applies
-    uint64_t agree = 0;          // hit or miss, strand and place
-    uint64_t embree_wrong = 0;   // the oracle agrees with the primitive
+    uint64_t rays = 0;          // decisive rays where Embree's definition applies
+    uint64_t agree = 0;         // hit or miss, strand and place
+    uint64_t embree_wrong = 0;  // the oracle agrees with the primitive
     uint64_t primitive_wrong = 0;
     uint64_t both_wrong = 0;
 

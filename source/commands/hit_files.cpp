@@ -26,8 +26,8 @@ std::vector<Item> read_column(const std::string& path, const NpyItem& item, size
 Rays load_ray_file(const std::string& path) {
     LoadedRays loaded = load_rays(path);
     if (loaded.invalid > 0)
-        warn("{}: {} rays with non-finite numbers, no direction, tmin < 0 or tmin > tmax count as misses", path,
-             loaded.invalid);
+        warn("{}: {} rays with non-finite numbers, no direction, tmin < 0 or tmin > tmax count as misses",
+             path, loaded.invalid);
     return std::move(loaded.rays);
 }
 
@@ -47,7 +47,8 @@ void write_hits(const std::string& folder, const Hits& hits) {
     write_npy(file("t.npy"), one_float, std::span<const float>(t));
     write_npy(file("curve.npy"), one_int, std::span<const int32_t>(curve));
     write_npy(file("u.npy"), one_float, std::span<const float>(u));
-    if (!hits.normals.empty()) write_npy(file("normal.npy"), three_floats, std::span<const glm::vec3>(hits.normals));
+    if (!hits.normals.empty())
+        write_npy(file("normal.npy"), three_floats, std::span<const glm::vec3>(hits.normals));
 }
 
 Hits read_hits(const std::string& folder, size_t rays) {
@@ -63,8 +64,8 @@ Hits read_hits(const std::string& folder, size_t rays) {
     for (size_t i = 0; i < rays; ++i) {
         const bool miss = std::isinf(t[i]) && t[i] > 0;
         if (miss != (curve[i] < 0))
-            fail(ExitCode::bad_input, "{}: ray {} has t = {} but curve {}: a miss is t = +inf and curve -1", folder, i, t[i],
-                 curve[i]);
+            fail(ExitCode::bad_input, "{}: ray {} has t = {} but curve {}: a miss is t = +inf and curve -1",
+                 folder, i, t[i], curve[i]);
         if (!miss) hits.hits[i] = {t[i], u.empty() ? 0.0f : u[i], static_cast<uint32_t>(curve[i]), 0};
     }
     return hits;

@@ -16,7 +16,8 @@ void print_device(size_t index, const DeviceInfo& info) {
         fmt::print("  ray tracing   no: lacks {}\n", info.missing);
         return;
     }
-    fmt::print("  ray tracing   {} traversal, pipelines{}\n", info.has_ray_tracing_hardware ? "hardware" : "software",
+    fmt::print("  ray tracing   {} traversal, pipelines{}\n",
+               info.has_ray_tracing_hardware ? "hardware" : "software",
                info.has_ray_query ? " and ray queries" : "");
     fmt::print("  memory        {:.1f} GiB, {:.1f} GiB at once\n", double(info.memory) / double(1 << 30),
                double(info.max_allocation) / double(1 << 30));
@@ -49,8 +50,8 @@ int run_info() {
 }  // namespace
 
 Command info_command() {
-    return {"info", "devices, their features, and the primitives that run there",
-            "  strandlab info\n", [](CLI::App&) -> RunCommand { return run_info; }};
+    return {"info", "devices, their features, and the primitives that run there", "  strandlab info\n",
+            [](CLI::App&) -> RunCommand { return run_info; }};
 }
 
 }  // namespace strandlab

@@ -23,12 +23,15 @@ std::string set_help() {
 
 void RayArguments::add_to(CLI::App& app, const std::string& default_names) {
     app.add_option("--rays", names, set_help())->allow_extra_args(false)->default_str(default_names);
-    app.add_option("--resolution", resolution, "WIDTHxHEIGHT (default: 320x180 on a CPU device, 1920x1080 on a GPU)");
-    app.add_option("--camera", camera,
-                   "eye=x,y,z:target=x,y,z[:up=x,y,z][:fov=degrees] or from=x,y,z[:zoom=factor]: then it fits the hair");
+    app.add_option("--resolution", resolution,
+                   "WIDTHxHEIGHT (default: 320x180 on a CPU device, 1920x1080 on a GPU)");
+    app.add_option(
+        "--camera", camera,
+        "eye=x,y,z:target=x,y,z[:up=x,y,z][:fov=degrees] or from=x,y,z[:zoom=factor]: then it fits the hair");
     app.add_option("--seed", seed, "of every ray set")->capture_default_str();
     app.add_flag("--shuffle", shuffle, "rays in random order (incoherent)");
-    app.add_option("--error-rays", error_rays, "rays of each set whose errors are measured (0: none)")->capture_default_str();
+    app.add_option("--error-rays", error_rays, "rays of each set whose errors are measured (0: none)")
+        ->capture_default_str();
 }
 
 Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolution& size) {
@@ -36,8 +39,8 @@ Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolu
     return framing(points, double(size.width) / size.height, parse_camera(arguments.camera));
 }
 
-RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size,
-                 Caps caps) {
+RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments,
+                 const Resolution& size, Caps caps) {
     const std::vector<Surface> common = common_surfaces(scene, caps);
     const bool needs_camera = std::any_of(arguments.names.begin(), arguments.names.end(),
                                           [](const std::string& name) { return !is_file(name); });
@@ -50,14 +53,24 @@ RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& a
         MeasuredRays set;
         if (is_file(name)) {
             set.rays = load_ray_file(name);
+            // Rays of a picture of that size: its shape is the launch's.
+            if (set.rays.rays.size() == size_t(size.width) * size.height) {
+                set.rays.width = size.width;
+                set.rays.height = size.height;
+            }
         } else {
             const RaySetInfo& info = ray_set_named(name);
             if (info.needs_primary_hits && primary.rays.empty()) {
                 primary = primary_rays(camera, picture, arguments.seed);
                 primary_reference = make_scene_reference(scene, common, curves, primary.rays);
             }
-            set.rays = make_rays(info, {curves, camera, picture, world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7))),
-                                        arguments.seed, arguments.shuffle, {primary.rays, primary_reference.hits}});
+            set.rays = make_rays(info, {curves,
+                                        camera,
+                                        picture,
+                                        world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7))),
+                                        arguments.seed,
+                                        arguments.shuffle,
+                                        {primary.rays, primary_reference.hits}});
             set.shadow = info.name == "shadow";
         }
         set.sample = error_sample(set.rays.rays.size(), arguments.error_rays);

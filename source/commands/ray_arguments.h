@@ -32,7 +32,8 @@ Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolu
 /// spawn once from the reference's primary hits, and are the same for every primitive.
 class RaySets {
   public:
-    RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size, Caps caps);
+    RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size,
+            Caps caps);
 
     const std::vector<MeasuredRays>& sets() const { return sets_; }
     /// Largest coordinate of any origin.

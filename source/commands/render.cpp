@@ -22,21 +22,6 @@ struct Options {
     bool no_shadows = false;
 };
 
-/// The hits as references, so that shadow rays spawn from what this primitive shows.
-std::vector<ReferenceHit> as_reference(const TraceResult& trace) {
-    std::vector<ReferenceHit> hits(trace.hits.hits.size());
-    for (size_t i = 0; i < hits.size(); ++i) {
-        const Hit& hit = trace.hits.hits[i];
-        if (!hit.is_hit()) continue;
-        hits[i].t = hit.t;
-        hits[i].u = hit.u;
-        hits[i].normal = glm::dvec3(trace.hits.normals[i]);
-        hits[i].curve = hit.curve;
-        hits[i].instance = hit.instance;
-    }
-    return hits;
-}
-
 /// 1 where a primary hit sees the light: one value per primary ray.
 std::vector<float> light_visible(const TracedScene& scene, const Rays& primary, const TraceResult& trace,
                                  const Curves& curves, const glm::dvec3& to_light) {
@@ -54,7 +39,8 @@ std::vector<float> light_visible(const TracedScene& scene, const Rays& primary, 
         const Ray& ray = primary.rays[i];
         // Away from the strand itself by its own width: a picture forgives what a measurement would not.
         const float width = curves.curves[hit.curve][0].w;
-        rays.rays.push_back({ray.origin + hit.t * ray.direction + 2.0f * width * normal, 0.0f, glm::vec3(to_light), 1e30f});
+        rays.rays.push_back(
+            {ray.origin + hit.t * ray.direction + 2.0f * width * normal, 0.0f, glm::vec3(to_light), 1e30f});
         owner.push_back(i);
     }
     set_launch_shape(rays);
@@ -66,7 +52,8 @@ std::vector<float> light_visible(const TracedScene& scene, const Rays& primary, 
 
 int run(const Options& options) {
     if (options.models.models.size() != 1)
-        fail(ExitCode::usage, "render takes one MODEL (a scene file holds several), not {}", options.models.models.size());
+        fail(ExitCode::usage, "render takes one MODEL (a scene file holds several), not {}",
+             options.models.models.size());
     check_image_path(options.output);
     const Scene scene = load_scene(options.models.models.front(), options.models.curve_options());
     if (scene.curve_count() == 0) fail(ExitCode::bad_input, "{}: there is no curve to render", scene.name);
@@ -94,7 +81,8 @@ int run(const Options& options) {
     if (!options.no_shadows) visible = light_visible(*prepared.traced, rays, trace, curves, shading.to_light);
     device.check_validation();
     write_image(options.output, shade(rays, trace.hits, curves, shading, visible));
-    inform("{}: {} x {}, {} samples a pixel, {}", options.output, size.width, size.height, options.samples, choice.label());
+    inform("{}: {} x {}, {} samples a pixel, {}", options.output, size.width, size.height, options.samples,
+           choice.label());
     return 0;
 }
 
@@ -103,17 +91,22 @@ int run(const Options& options) {
 Command render_command() {
     return {"render", "a picture of a model, with depth, normal, ids as EXR layers",
             "  strandlab render models/straight.hair -o straight.png\n"
-            "  strandlab render hair.hair -o hair.exr --primitive lss:segments=8 --camera from=1,0.3,-0.5:zoom=3\n" +
+            "  strandlab render hair.hair -o hair.exr --primitive lss:segments=8 --camera "
+            "from=1,0.3,-0.5:zoom=3\n" +
                 primitive_help(),
             [](CLI::App& app) -> RunCommand {
                 auto options = std::make_shared<Options>();
                 options->models.add_to(app, true);
-                app.add_option("-o,--output", options->output, "picture to write: .png, or .exr with all layers")->required();
+                app.add_option("-o,--output", options->output,
+                               "picture to write: .png, or .exr with all layers")
+                    ->required();
                 options->primitive.add_to(app, false);
                 options->device.add_to(app);
                 app.add_option("--resolution", options->resolution, "WIDTHxHEIGHT")->capture_default_str();
                 app.add_option("--camera", options->camera, "eye=...:target=... or from=x,y,z[:zoom=factor]");
-                app.add_option("--samples", options->samples, "rays per pixel")->capture_default_str()->check(CLI::Range(1u, 4096u));
+                app.add_option("--samples", options->samples, "rays per pixel")
+                    ->capture_default_str()
+                    ->check(CLI::Range(1u, 4096u));
                 app.add_option("--seed", options->seed, "of the places in a pixel")->capture_default_str();
                 app.add_flag("--no-shadows", options->no_shadows, "light goes through hair (faster)");
                 return [options] { return run(*options); };

@@ -24,14 +24,15 @@ struct Options {
     bool shadow = false, no_normals = false;
 };
 
-nlohmann::ordered_json statistics_of(const Options& options, const PreparedCase& prepared, const TraceDevice& device,
-                                     const TraceResult& result) {
+nlohmann::ordered_json statistics_of(const Options& options, const PreparedCase& prepared,
+                                     const TraceDevice& device, const TraceResult& result) {
     const SceneCost& cost = prepared.traced->cost();
     size_t hits = 0;
     for (const Hit& hit : result.hits.hits) hits += hit.is_hit() ? 1 : 0;
     const double median = summarise(result.milliseconds).median;
     return {{"primitive", prepared.choice.primitive->name},
-            {"parameters", prepared.choice.options.parameters.to_string(prepared.choice.primitive->parameters, true)},
+            {"parameters",
+             prepared.choice.options.parameters.to_string(prepared.choice.primitive->parameters, true)},
             {"caps", name_of(prepared.choice.options.caps)},
             {"device", device.name()},
             {"driver", device.info().driver},
@@ -56,7 +57,8 @@ nlohmann::ordered_json statistics_of(const Options& options, const PreparedCase&
 }
 
 int run(const Options& options) {
-    if (options.primitive.primitives.empty()) fail(ExitCode::usage, "trace needs --primitive NAME[:key=value,...]");
+    if (options.primitive.primitives.empty())
+        fail(ExitCode::usage, "trace needs --primitive NAME[:key=value,...]");
     const PrimitiveChoice choice = options.primitive.choices().front();
     const Scene scene = load_scene(options.curves, {}, options.strands);
     const Rays rays = load_ray_file(options.rays);
@@ -81,16 +83,21 @@ int run(const Options& options) {
 Command trace_command() {
     return {"trace", "trace rays of a file through curves of a file, write the hits",
             "  strandlab trace --curves c.npy --strands s.npy --rays r.npy --primitive prhi --out hits\n"
-            "  strandlab trace --curves hair.hair --rays r.npy --primitive rocaps:splits=8 --caps open --out hits\n" +
+            "  strandlab trace --curves hair.hair --rays r.npy --primitive rocaps:splits=8 --caps open --out "
+            "hits\n" +
                 primitive_help(),
             [](CLI::App& app) -> RunCommand {
                 auto options = std::make_shared<Options>();
-                app.add_option("--curves", options->curves, "curves, float32 [N,4,4], or any model or scene")->required();
+                app.add_option("--curves", options->curves, "curves, float32 [N,4,4], or any model or scene")
+                    ->required();
                 app.add_option("--strands", options->strands, "strands, int32 [S,2] (first curve, count)");
-                app.add_option("--rays", options->rays, "rays, float32 [M,8]: origin, tmin, direction, tmax")->required();
+                app.add_option("--rays", options->rays, "rays, float32 [M,8]: origin, tmin, direction, tmax")
+                    ->required();
                 options->primitive.add_to(app, false);
                 options->device.add_to(app);
-                app.add_option("-o,--out", options->output, "folder for t, curve, u, normal (.npy) and stats.json")->required();
+                app.add_option("-o,--out", options->output,
+                               "folder for t, curve, u, normal (.npy) and stats.json")
+                    ->required();
                 app.add_option("--repeat", options->repeat, "times to trace; stats.json keeps each time")
                     ->check(CLI::Range(1u, 10000u));
                 app.add_flag("--shadow", options->shadow, "any hit will do: t is tmin and curve 0 for a hit");

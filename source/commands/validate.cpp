@@ -52,9 +52,12 @@ struct Verdict {
 
     uint64_t wrong() const {
         const Tally& t = error.decisive;
-        return t.nan.count + t.false_hit.count + t.false_miss.count + t.wrong_strand.count + t.wrong_place.count;
+        return t.nan.count + t.false_hit.count + t.false_miss.count + t.wrong_strand.count +
+               t.wrong_place.count;
     }
-    double wrong_share() const { return error.decisive.rays == 0 ? 0 : double(wrong()) / double(error.decisive.rays); }
+    double wrong_share() const {
+        return error.decisive.rays == 0 ? 0 : double(wrong()) / double(error.decisive.rays);
+    }
     bool holds() const {
         return wrong_share() <= tolerance.wrong && error.decisive.nan.count == 0 &&
                error.decisive.of(Measure::distance).p99 <= allowed_distance;
@@ -65,14 +68,18 @@ struct Verdict {
     }
 };
 
-Verdict judge(const CaseInput& input, const PreparedCase& prepared, const MeasuredRays& rays, bool with_embree) {
-    const TraceResult trace = prepared.traced->trace(rays.rays, {.shadow = rays.shadow, .samples = 1, .warm_up_ms = 0});
+Verdict judge(const CaseInput& input, const PreparedCase& prepared, const MeasuredRays& rays,
+              bool with_embree) {
+    const TraceResult trace =
+        prepared.traced->trace(rays.rays, {.shadow = rays.shadow, .samples = 1, .warm_up_ms = 0});
     const Hits sample = selected(trace.hits, rays.sample);
-    const Reference own = make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
+    const Reference own =
+        make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
     Verdict verdict;
     verdict.error = compare_with(input.scene, input.curves, rays, sample, own, false);
     const PrimitiveChoice& choice = prepared.choice;
-    if (choice.primitive->tolerance != nullptr) verdict.tolerance = choice.primitive->tolerance(choice.options);
+    if (choice.primitive->tolerance != nullptr)
+        verdict.tolerance = choice.primitive->tolerance(choice.options);
     verdict.allowed_distance = std::max(verdict.tolerance.distance_p99, 1.5 * ulp_floor(rays, own));
     if (with_embree && input.scene.is_plain() && !rays.shadow)
         verdict.embree = second_opinion(input.curves, rays, sample, prepared.surfaces[0], own);
@@ -83,14 +90,23 @@ std::vector<std::string> cells(const std::string& model, const std::string& rays
                                const Verdict& v) {
     const Tally& t = v.error.decisive;
     const Percentiles& distance = t.of(Measure::distance);
-    std::vector<std::string> row = {model, rays, label, grouped(t.rays), percent(v.error.undecided_share()),
-                                    std::to_string(t.false_hit.count), std::to_string(t.false_miss.count),
-                                    std::to_string(t.wrong_strand.count), std::to_string(t.wrong_place.count),
-                                    significant(distance.p50, 2), significant(distance.p99, 2),
-                                    significant(v.allowed_distance, 2), significant(t.of(Measure::normal).p99, 2)};
+    std::vector<std::string> row = {model,
+                                    rays,
+                                    label,
+                                    grouped(t.rays),
+                                    percent(v.error.undecided_share()),
+                                    std::to_string(t.false_hit.count),
+                                    std::to_string(t.false_miss.count),
+                                    std::to_string(t.wrong_strand.count),
+                                    std::to_string(t.wrong_place.count),
+                                    significant(distance.p50, 2),
+                                    significant(distance.p99, 2),
+                                    significant(v.allowed_distance, 2),
+                                    significant(t.of(Measure::normal).p99, 2)};
     if (v.embree && v.embree->rays > 0)
-        row.insert(row.end(), {significant(100 * v.embree->agreement(), 5), std::to_string(v.embree->embree_wrong),
-                               std::to_string(v.embree->primitive_wrong), std::to_string(v.embree->both_wrong)});
+        row.insert(row.end(),
+                   {significant(100 * v.embree->agreement(), 5), std::to_string(v.embree->embree_wrong),
+                    std::to_string(v.embree->primitive_wrong), std::to_string(v.embree->both_wrong)});
     else
         row.insert(row.end(), 4, "-");
     row.push_back(!v.holds() ? "FAILS" : !v.embree_holds() ? "FAILS (Embree)" : "holds");
@@ -101,12 +117,27 @@ int run(Options& options) {
     if (options.models.models.empty()) options.models.models = bundled_models();
     if (options.rays.names.empty()) options.rays.names = {"primary", "secondary"};
     const TraceDevice device({options.device.device, options.device.validation});
-    const Resolution size = parse_resolution(options.rays.resolution.empty() ? "320x180" : options.rays.resolution);
+    const Resolution size =
+        parse_resolution(options.rays.resolution.empty() ? "320x180" : options.rays.resolution);
     const bool with_embree = embree_available() && !options.no_embree;
-    Table table({{"model", "", true}, {"rays", "", true}, {"primitive", "", true}, {"decisive", "rays"}, {"undecided"},
-                 {"false hit"}, {"false miss"}, {"strand"}, {"place"}, {"dt p50", "radii"}, {"dt p99", "radii"},
-                 {"allowed", "radii"}, {"normal p99", "deg"}, {"Embree agrees", "%"}, {"Embree wrong"}, {"ours wrong"},
-                 {"both"}, {"verdict", "", true}},
+    Table table({{"model", "", true},
+                 {"rays", "", true},
+                 {"primitive", "", true},
+                 {"decisive", "rays"},
+                 {"undecided"},
+                 {"false hit"},
+                 {"false miss"},
+                 {"strand"},
+                 {"place"},
+                 {"dt p50", "radii"},
+                 {"dt p99", "radii"},
+                 {"allowed", "radii"},
+                 {"normal p99", "deg"},
+                 {"Embree agrees", "%"},
+                 {"Embree wrong"},
+                 {"ours wrong"},
+                 {"both"},
+                 {"verdict", "", true}},
                 3);
     bool all_hold = true;
     std::string notes;
@@ -124,7 +155,8 @@ int run(Options& options) {
                 const Verdict verdict = judge(input, prepared, set, with_embree);
                 table.add_row(cells(scene.name, set.rays.name, choice.label(), verdict));
                 all_hold &= verdict.holds() && verdict.embree_holds();
-                if (!verdict.tolerance.reason.empty() && notes.find(choice.label() + ":") == std::string::npos)
+                if (!verdict.tolerance.reason.empty() &&
+                    notes.find(choice.label() + ":") == std::string::npos)
                     notes += fmt::format("{}: wrong on at most {} of decisive rays: {}\n", choice.label(),
                                          percent(verdict.tolerance.wrong), verdict.tolerance.reason);
             }
@@ -132,8 +164,10 @@ int run(Options& options) {
     }
     device.check_validation();
     fmt::print("{}{}", table.to_string(standard_output_style()), notes);
-    fmt::print("Allowed: wrong on at most 0.01 % of decisive rays, dt p99 at most 0.001 radii or 1.5 times the p99 of\n"
-               "ulp(t) / r, unless noted. Embree: counted where its definition applies; wrong says the oracle.\n");
+    fmt::print(
+        "Allowed: wrong on at most 0.01 % of decisive rays, dt p99 at most 0.001 radii or 1.5 times the p99 "
+        "of\n"
+        "ulp(t) / r, unless noted. Embree: counted where its definition applies; wrong says the oracle.\n");
     return static_cast<int>(all_hold ? ExitCode::ok : ExitCode::threshold);
 }
 

@@ -52,17 +52,19 @@ Structure create(const Device& device, Type type, uint64_t bytes) {
 }
 
 /// Builds one geometry; fills cost (but upload and input) and, where asked, the compacted size.
-Structure build(const Device& device, Type type, const vk::AccelerationStructureGeometryKHR& geometry, uint32_t count,
-                bool compactable, BuildCost& cost, uint64_t* compacted_bytes) {
+Structure build(const Device& device, Type type, const vk::AccelerationStructureGeometryKHR& geometry,
+                uint32_t count, bool compactable, BuildCost& cost, uint64_t* compacted_bytes) {
     const DeviceState& state = device.state();
-    vk::BuildAccelerationStructureFlagsKHR flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
+    vk::BuildAccelerationStructureFlagsKHR flags =
+        vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
     if (compactable) flags |= vk::BuildAccelerationStructureFlagBitsKHR::eAllowCompaction;
-    vk::AccelerationStructureBuildGeometryInfoKHR info(type, flags, vk::BuildAccelerationStructureModeKHR::eBuild, {},
-                                                       {}, geometry);
+    vk::AccelerationStructureBuildGeometryInfoKHR info(
+        type, flags, vk::BuildAccelerationStructureModeKHR::eBuild, {}, {}, geometry);
     const auto sizes = state.device.getAccelerationStructureBuildSizesKHR(
         vk::AccelerationStructureBuildTypeKHR::eDevice, info, count);
     Structure structure = create(device, type, sizes.accelerationStructureSize);
-    const uint64_t alignment = std::max(1u, state.structure_limits.minAccelerationStructureScratchOffsetAlignment);
+    const uint64_t alignment =
+        std::max(1u, state.structure_limits.minAccelerationStructureScratchOffsetAlignment);
     const Buffer scratch(device, sizes.buildScratchSize + alignment, Buffer::Use::scratch);
     info.dstAccelerationStructure = *structure->handle;
     info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
@@ -81,10 +83,11 @@ Structure build(const Device& device, Type type, const vk::AccelerationStructure
             *structure->handle, vk::QueryType::eAccelerationStructureCompactedSizeKHR, *query, 0);
     });
     if (compacted_bytes != nullptr)
-        *compacted_bytes = query
-                               .getResults<uint64_t>(0, 1, sizeof(uint64_t), sizeof(uint64_t),
-                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
-                               .second.front();
+        *compacted_bytes =
+            query
+                .getResults<uint64_t>(0, 1, sizeof(uint64_t), sizeof(uint64_t),
+                                      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+                .second.front();
     cost.build_ms = timer.milliseconds();
     cost.scratch_bytes = sizes.buildScratchSize;
     cost.built_bytes = cost.kept_bytes = sizes.accelerationStructureSize;
@@ -121,7 +124,8 @@ vk::GeometryFlagsKHR geometry_flags(bool opaque) {
 vk::AccelerationStructureInstanceKHR instance_record(const InstanceInput& input) {
     vk::TransformMatrixKHR matrix;
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column) matrix.matrix[row][column] = input.world_from_object[column][row];
+        for (int column = 0; column < 4; ++column)
+            matrix.matrix[row][column] = input.world_from_object[column][row];
     vk::AccelerationStructureInstanceKHR record(matrix, input.custom_index & 0xFFFFFFu, 0xFFu, 0);
     record.accelerationStructureReference = input.structure;
     return record;
@@ -129,7 +133,8 @@ vk::AccelerationStructureInstanceKHR instance_record(const InstanceInput& input)
 
 }  // namespace
 
-AccelerationStructure build_bottom_level(const Device& device, const BottomLevelInput& input, BuildCost& total) {
+AccelerationStructure build_bottom_level(const Device& device, const BottomLevelInput& input,
+                                         BuildCost& total) {
     assert(input.leaf_count() > 0 && input.leaf_count() <= device.info().max_leaves);
     return guarded("building an acceleration structure", [&] {
         BuildCost cost;
@@ -154,8 +159,9 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
         }
         cost.upload_ms = milliseconds_since(start);
         uint64_t compacted_bytes = 0;
-        Structure structure = build(device, Type::eBottomLevel, geometry, static_cast<uint32_t>(input.leaf_count()),
-                                    input.compact, cost, input.compact ? &compacted_bytes : nullptr);
+        Structure structure =
+            build(device, Type::eBottomLevel, geometry, static_cast<uint32_t>(input.leaf_count()),
+                  input.compact, cost, input.compact ? &compacted_bytes : nullptr);
         if (compacted_bytes != 0 && compacted_bytes < cost.built_bytes)
             structure = compacted(device, std::move(structure), compacted_bytes, cost);
         total.add(cost);
@@ -170,13 +176,14 @@ AccelerationStructure build_top_level(const Device& device, std::span<const Inst
         std::vector<vk::AccelerationStructureInstanceKHR> records;
         records.reserve(instances.size());
         for (const InstanceInput& instance : instances) records.push_back(instance_record(instance));
-        const Buffer input =
-            make_buffer(device, std::span<const vk::AccelerationStructureInstanceKHR>(records), Buffer::Use::build_input);
+        const Buffer input = make_buffer(
+            device, std::span<const vk::AccelerationStructureInstanceKHR>(records), Buffer::Use::build_input);
         cost.input_bytes = records.size() * sizeof(records[0]);
         vk::AccelerationStructureGeometryKHR geometry(vk::GeometryTypeKHR::eInstances);
-        geometry.geometry.instances = vk::AccelerationStructureGeometryInstancesDataKHR(false, input.address());
-        Structure structure = build(device, Type::eTopLevel, geometry, static_cast<uint32_t>(records.size()), false,
-                                    cost, nullptr);
+        geometry.geometry.instances =
+            vk::AccelerationStructureGeometryInstancesDataKHR(false, input.address());
+        Structure structure = build(device, Type::eTopLevel, geometry, static_cast<uint32_t>(records.size()),
+                                    false, cost, nullptr);
         total.add(cost);
         return AccelerationStructure(std::move(structure));
     });

@@ -62,7 +62,8 @@ struct InstanceInput {
 };
 
 /// Builds (prefer fast trace) and, if asked, compacts. Errors: device_lost when memory runs out.
-AccelerationStructure build_bottom_level(const Device& device, const BottomLevelInput& input, BuildCost& cost);
+AccelerationStructure build_bottom_level(const Device& device, const BottomLevelInput& input,
+                                         BuildCost& cost);
 
 /// Builds the structure over instances of built structures.
 AccelerationStructure build_top_level(const Device& device, std::span<const InstanceInput> instances,

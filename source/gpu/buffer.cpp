@@ -14,7 +14,8 @@ using Memory = vk::MemoryPropertyFlagBits;
 constexpr size_t staging_bytes = size_t(64) << 20;
 
 vk::BufferUsageFlags usage_of(Buffer::Use use) {
-    const vk::BufferUsageFlags common = Flags::eShaderDeviceAddress | Flags::eTransferDst | Flags::eTransferSrc;
+    const vk::BufferUsageFlags common =
+        Flags::eShaderDeviceAddress | Flags::eTransferDst | Flags::eTransferSrc;
     switch (use) {
         case Buffer::Use::storage:
         case Buffer::Use::scratch: return common | Flags::eStorageBuffer;
@@ -31,7 +32,8 @@ uint32_t memory_type_of(const DeviceState& state, uint32_t allowed, Buffer::Use 
     if (use == Buffer::Use::download)
         return state.memory_type(allowed, {visible | Memory::eHostCached, visible});
     // On a CPU device all memory is the host's; elsewhere large host-visible heaps need not exist.
-    if (state.info.kind == "cpu") return state.memory_type(allowed, {Memory::eDeviceLocal | visible, visible});
+    if (state.info.kind == "cpu")
+        return state.memory_type(allowed, {Memory::eDeviceLocal | visible, visible});
     return state.memory_type(allowed, {Memory::eDeviceLocal, vk::MemoryPropertyFlags{}});
 }
 
@@ -40,8 +42,8 @@ uint32_t memory_type_of(const DeviceState& state, uint32_t allowed, Buffer::Use 
 void full_barrier(const vk::raii::CommandBuffer& commands) {
     const vk::MemoryBarrier barrier(vk::AccessFlagBits::eMemoryWrite,
                                     vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {},
-                             barrier, nullptr, nullptr);
+    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands,
+                             {}, barrier, nullptr, nullptr);
 }
 
 Buffer::Buffer() = default;
@@ -108,9 +110,10 @@ void Buffer::download(std::span<std::byte> bytes) const {
         device.state().run("downloading", [&](const vk::raii::CommandBuffer& commands) {
             full_barrier(commands);
             commands.copyBuffer(handle_of(*this), handle_of(staging), vk::BufferCopy(done, 0, part));
-            const vk::MemoryBarrier to_host(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead);
-            commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host,
-                                     nullptr, nullptr);
+            const vk::MemoryBarrier to_host(vk::AccessFlagBits::eTransferWrite,
+                                            vk::AccessFlagBits::eHostRead);
+            commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost,
+                                     {}, to_host, nullptr, nullptr);
         });
         std::memcpy(bytes.data() + done, staging.implementation_->mapped, part);
     }

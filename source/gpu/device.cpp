@@ -36,11 +36,13 @@ size_t choose(const std::vector<DeviceInfo>& devices, const std::string& selecto
         if (best == devices.size() || rank_of(devices[i]) > rank_of(devices[best])) best = i;
     }
     if (best == devices.size())
-        fail(ExitCode::no_device, "--device {}: no such Vulkan device; there {}", selector.empty() ? "auto" : selector,
+        fail(ExitCode::no_device, "--device {}: no such Vulkan device; there {}",
+             selector.empty() ? "auto" : selector,
              seen.empty() ? "is none: run tools/setup for Mesa's lavapipe" : "are " + seen);
     if (!devices[best].is_usable())
         fail(ExitCode::no_device,
-             "--device {}: {} lacks {}; run tools/setup for a lavapipe with ray tracing, or choose another device",
+             "--device {}: {} lacks {}; run tools/setup for a lavapipe with ray tracing, or choose another "
+             "device",
              selector.empty() ? "auto" : selector, devices[best].name, devices[best].missing);
     return best;
 }
@@ -48,8 +50,10 @@ size_t choose(const std::vector<DeviceInfo>& devices, const std::string& selecto
 uint32_t compute_family(const vk::raii::PhysicalDevice& physical) {
     const auto families = physical.getQueueFamilyProperties();
     for (uint32_t i = 0; i < families.size(); ++i)
-        if ((families[i].queueFlags & vk::QueueFlagBits::eCompute) && families[i].timestampValidBits > 0) return i;
-    fail(ExitCode::no_device, "{}: no compute queue with timestamps", physical.getProperties().deviceName.data());
+        if ((families[i].queueFlags & vk::QueueFlagBits::eCompute) && families[i].timestampValidBits > 0)
+            return i;
+    fail(ExitCode::no_device, "{}: no compute queue with timestamps",
+         physical.getProperties().deviceName.data());
 }
 
 vk::raii::Device open_device(const vk::raii::PhysicalDevice& physical, uint32_t family) {
@@ -71,7 +75,8 @@ vk::raii::Device open_device(const vk::raii::PhysicalDevice& physical, uint32_t 
 
 }  // namespace
 
-uint32_t DeviceState::memory_type(uint32_t allowed, std::initializer_list<vk::MemoryPropertyFlags> wanted) const {
+uint32_t DeviceState::memory_type(uint32_t allowed,
+                                  std::initializer_list<vk::MemoryPropertyFlags> wanted) const {
     for (const vk::MemoryPropertyFlags flags : wanted)
         for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
             if ((allowed & (1u << i)) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
@@ -94,9 +99,9 @@ Device::Device(const DeviceOptions& options) : state_(std::make_shared<DeviceSta
         s.queue = s.device.getQueue(s.queue_family, 0);
         s.pool = vk::raii::CommandPool(s.device, {vk::CommandPoolCreateFlagBits::eTransient, s.queue_family});
         s.memory = s.physical.getMemoryProperties();
-        const auto limits =
-            s.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR,
-                                      vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
+        const auto limits = s.physical.getProperties2<vk::PhysicalDeviceProperties2,
+                                                      vk::PhysicalDeviceAccelerationStructurePropertiesKHR,
+                                                      vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
         s.structure_limits = limits.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
         s.pipeline_limits = limits.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
         s.structure_limits.pNext = s.pipeline_limits.pNext = nullptr;

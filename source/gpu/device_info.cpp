@@ -23,13 +23,15 @@ std::string kind_of(vk::PhysicalDeviceType type) {
 }
 
 /// Names of the extensions of `wanted` that the device lacks, and of features it does not offer.
-std::string missing_parts(const vk::raii::PhysicalDevice& physical, const std::vector<std::string>& extensions) {
+std::string missing_parts(const vk::raii::PhysicalDevice& physical,
+                          const std::vector<std::string>& extensions) {
     std::string missing;
     const auto add = [&](const std::string& name) { missing += (missing.empty() ? "" : ", ") + name; };
     if (physical.getProperties().apiVersion < VK_API_VERSION_1_2) add("Vulkan 1.2");
     bool all = true;
-    for (const char* name : {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
-                             VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME}) {
+    for (const char* name :
+         {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+          VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME}) {
         if (std::find(extensions.begin(), extensions.end(), name) != extensions.end()) continue;
         add(name);
         all = false;
@@ -42,7 +44,8 @@ std::string missing_parts(const vk::raii::PhysicalDevice& physical, const std::v
     if (!features.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress) add("bufferDeviceAddress");
     if (!features.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure)
         add("accelerationStructure");
-    if (!features.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline) add("rayTracingPipeline");
+    if (!features.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline)
+        add("rayTracingPipeline");
     return missing;
 }
 
@@ -69,7 +72,8 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     info.api_version = version_text(basic.apiVersion);
     info.kind = kind_of(basic.deviceType);
     info.missing = missing_parts(physical, extensions);
-    info.timestamp_period = basic.limits.timestampComputeAndGraphics ? double(basic.limits.timestampPeriod) : 0.0;
+    info.timestamp_period =
+        basic.limits.timestampComputeAndGraphics ? double(basic.limits.timestampPeriod) : 0.0;
     info.has_ray_query = has(VK_KHR_RAY_QUERY_EXTENSION_NAME);
     info.has_ray_tracing_hardware = basic.deviceType != vk::PhysicalDeviceType::eCpu && info.has_ray_query;
     info.has_linear_swept_spheres = has("VK_NV_ray_tracing_linear_swept_spheres");
@@ -86,7 +90,8 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     info.is_lavapipe = driver.driverID == vk::DriverId::eMesaLlvmpipe;
     info.max_allocation = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
     info.max_leaves = chain.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>().maxPrimitiveCount;
-    info.max_launch = chain.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>().maxRayDispatchInvocationCount;
+    info.max_launch =
+        chain.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>().maxRayDispatchInvocationCount;
     return info;
 }
 

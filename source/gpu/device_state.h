@@ -16,8 +16,8 @@ auto guarded(const char* what, Body&& body) {
     try {
         return body();
     } catch (const vk::DeviceLostError& error) {
-        fail(ExitCode::device_lost, "{}: the device was lost ({}); try fewer rays a launch or another device", what,
-             error.what());
+        fail(ExitCode::device_lost, "{}: the device was lost ({}); try fewer rays a launch or another device",
+             what, error.what());
     } catch (const vk::OutOfDeviceMemoryError&) {
         fail(ExitCode::device_lost, "{}: out of device memory; try a smaller model or fewer leaves", what);
     } catch (const vk::OutOfHostMemoryError&) {

@@ -10,7 +10,8 @@ namespace {
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
 // Debian 13's vulkan.hpp types the callback with its own enums; this C signature fits both through the cast.
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto* log = static_cast<MessageLog*>(user);
     const std::lock_guard lock(log->mutex);
@@ -22,8 +23,8 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageLog* log) {
     vk::DebugUtilsMessengerCreateInfoEXT info;
     info.messageSeverity =
         vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError;
-    info.messageType =
-        vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation | vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance;
+    info.messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation |
+                       vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance;
     // Vulkan-Hpp 1.4 has its own callback type; by way of void (*)() a compiler accepts either.
     info.pfnUserCallback =
         reinterpret_cast<decltype(info.pfnUserCallback)>(reinterpret_cast<void (*)()>(&on_message));
@@ -37,7 +38,8 @@ void require_validation_layer(const vk::raii::Context& context) {
         return std::strcmp(layer.layerName, validation_layer) == 0;
     });
     if (!found)
-        fail(ExitCode::no_device, "--validation: {} is not installed; run tools/setup (package vulkan-validationlayers)",
+        fail(ExitCode::no_device,
+             "--validation: {} is not installed; run tools/setup (package vulkan-validationlayers)",
              validation_layer);
 }
 
@@ -70,10 +72,11 @@ std::unique_ptr<InstanceState> make_instance(bool validation) {
         throw;
     } catch (const std::exception& error) {
         // No loader, or no driver at all.
-        fail(ExitCode::no_device,
-             "Vulkan cannot be opened ({}); install a driver, or Mesa's lavapipe for any machine: tools/setup "
-             "(packages libvulkan1 and mesa-vulkan-drivers)",
-             error.what());
+        fail(
+            ExitCode::no_device,
+            "Vulkan cannot be opened ({}); install a driver, or Mesa's lavapipe for any machine: tools/setup "
+            "(packages libvulkan1 and mesa-vulkan-drivers)",
+            error.what());
     }
 }
 

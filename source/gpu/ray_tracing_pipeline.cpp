@@ -25,7 +25,8 @@ using Stage = vk::ShaderStageFlagBits;
 struct Specialization {
     explicit Specialization(const PipelineConstants& constants) {
         for (const auto& [id, bits] : constants) {
-            entries.emplace_back(id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t));
+            entries.emplace_back(id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
+                                 sizeof(uint32_t));
             values.push_back(bits);
         }
         info.setMapEntries(entries).setData<uint32_t>(values);
@@ -41,7 +42,8 @@ struct StageList {
                  const vk::SpecializationInfo& specialization) {
         if (code.empty()) return VK_SHADER_UNUSED_KHR;
         modules.emplace_back(device, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
-        infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stage, *modules.back(), "main", &specialization);
+        infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stage, *modules.back(), "main",
+                           &specialization);
         return static_cast<uint32_t>(infos.size()) - 1;
     }
     std::vector<vk::raii::ShaderModule> modules;
@@ -50,7 +52,9 @@ struct StageList {
 
 constexpr uint32_t group_count = 3;  // ray generation, miss, hit
 
-uint64_t round_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+uint64_t round_up(uint64_t value, uint64_t alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
 
 /// One record per group, each at the base alignment: the table is tiny.
 void make_table(const Device& device, RayTracingPipeline::Implementation& self) {
@@ -58,7 +62,8 @@ void make_table(const Device& device, RayTracingPipeline::Implementation& self) 
     const uint64_t stride = round_up(limits.shaderGroupHandleSize, limits.shaderGroupBaseAlignment);
     const auto handles = self.pipeline.getRayTracingShaderGroupHandlesKHR<std::byte>(
         0, group_count, group_count * limits.shaderGroupHandleSize);
-    self.table = Buffer(device, group_count * stride + limits.shaderGroupBaseAlignment, Buffer::Use::shader_records);
+    self.table =
+        Buffer(device, group_count * stride + limits.shaderGroupBaseAlignment, Buffer::Use::shader_records);
     const uint64_t base = round_up(self.table.address(), limits.shaderGroupBaseAlignment);
     std::vector<std::byte> bytes(self.table.size());
     vk::StridedDeviceAddressRegionKHR* regions[] = {&self.ray_generation, &self.miss, &self.hit};
@@ -86,17 +91,20 @@ RayTracingPipeline::RayTracingPipeline(const Device& device, const PipelineStage
         using Group = vk::RayTracingShaderGroupTypeKHR;
         const auto unused = VK_SHADER_UNUSED_KHR;
         std::vector<vk::RayTracingShaderGroupCreateInfoKHR> groups;
-        groups.emplace_back(Group::eGeneral, add(Stage::eRaygenKHR, stages.ray_generation), unused, unused, unused);
+        groups.emplace_back(Group::eGeneral, add(Stage::eRaygenKHR, stages.ray_generation), unused, unused,
+                            unused);
         groups.emplace_back(Group::eGeneral, add(Stage::eMissKHR, stages.miss), unused, unused, unused);
         const uint32_t closest = add(Stage::eClosestHitKHR, stages.closest_hit);
         const uint32_t any = add(Stage::eAnyHitKHR, stages.any_hit);
         const uint32_t intersection = add(Stage::eIntersectionKHR, stages.intersection);
-        groups.emplace_back(stages.intersection.empty() ? Group::eTrianglesHitGroup : Group::eProceduralHitGroup, unused,
-                            closest, any, intersection);
+        groups.emplace_back(
+            stages.intersection.empty() ? Group::eTrianglesHitGroup : Group::eProceduralHitGroup, unused,
+            closest, any, intersection);
         const vk::PushConstantRange range(Stage::eRaygenKHR | Stage::eMissKHR | Stage::eClosestHitKHR |
                                               Stage::eAnyHitKHR | Stage::eIntersectionKHR,
                                           0, push_constant_bytes);
-        self.layout = vk::raii::PipelineLayout(state.device, vk::PipelineLayoutCreateInfo({}, nullptr, range));
+        self.layout =
+            vk::raii::PipelineLayout(state.device, vk::PipelineLayoutCreateInfo({}, nullptr, range));
         vk::RayTracingPipelineCreateInfoKHR info({}, list.infos, groups, 1);
         info.layout = *self.layout;
         self.pipeline = vk::raii::Pipeline(state.device, nullptr, nullptr, info);
@@ -119,8 +127,8 @@ double RayTracingPipeline::run(std::span<const Launch> launches) const {
                                               Stage::eRaygenKHR | Stage::eMissKHR | Stage::eClosestHitKHR |
                                                   Stage::eAnyHitKHR | Stage::eIntersectionKHR,
                                               0, launch.push_constants);
-            commands.traceRaysKHR(self.ray_generation, self.miss, self.hit, self.callable, launch.width, launch.height,
-                                  1);
+            commands.traceRaysKHR(self.ray_generation, self.miss, self.hit, self.callable, launch.width,
+                                  launch.height, 1);
         }
         self.timer->end(commands);
         full_barrier(commands);

@@ -17,8 +17,9 @@ void Timer::end(const vk::raii::CommandBuffer& commands) const {
 }
 
 double Timer::milliseconds() const {
-    const auto [result, ticks] = pool_.getResults<uint64_t>(
-        0, 2, 2 * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const auto [result, ticks] =
+        pool_.getResults<uint64_t>(0, 2, 2 * sizeof(uint64_t), sizeof(uint64_t),
+                                   vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     const uint64_t mask = valid_bits_ >= 64 ? ~uint64_t(0) : (uint64_t(1) << valid_bits_) - 1;
     return double((ticks[1] - ticks[0]) & mask) * period_ * 1e-6;
 }

@@ -17,7 +17,7 @@ class Timer {
 
   private:
     vk::raii::QueryPool pool_;
-    double period_;      // nanoseconds per tick
+    double period_;  // nanoseconds per tick
     uint32_t valid_bits_;
 };
 

@@ -55,19 +55,22 @@ PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice)
     const auto start = std::chrono::steady_clock::now();
     std::vector<SceneModel> models;
     for (uint32_t i = 0; i < input.scene.models.size(); ++i)
-        models.push_back({choice.primitive->build(input.scene.models[i], choice.options), input.scene.first_curve(i)});
+        models.push_back(
+            {choice.primitive->build(input.scene.models[i], choice.options), input.scene.first_curve(i)});
     prepared.geometry_ms = milliseconds_since(start);
-    prepared.traced = input.device.prepare(*choice.primitive, std::move(models), input.scene.instances, input.options);
+    prepared.traced =
+        input.device.prepare(*choice.primitive, std::move(models), input.scene.instances, input.options);
     prepared.surfaces = surfaces_of(
         input.scene, [&](const Curves& curves) { return choice.primitive->surface(curves, choice.options); });
     return prepared;
 }
 
-Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays, const Hits& sample_hits,
-                        const Reference& reference, bool against_curves) {
+Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays,
+                        const Hits& sample_hits, const Reference& reference, bool against_curves) {
     std::vector<glm::mat4x3> transforms;
     if (!scene.is_plain())
-        for (const SceneInstance& instance : scene.instances) transforms.push_back(instance.world_from_object);
+        for (const SceneInstance& instance : scene.instances)
+            transforms.push_back(instance.world_from_object);
     return compare({.rays = rays.sample_rays,
                     .hits = sample_hits.hits,
                     .normals = sample_hits.normals,
@@ -88,7 +91,8 @@ CaseResult run_case(const CaseInput& input, const PreparedCase& prepared, const 
     for (const Hit& hit : trace.hits.hits) result.hits += hit.is_hit() ? 1 : 0;
     if (rays.sample.empty() || prepared.choice.primitive->diagnostic) return result;
     const Hits sample = selected(trace.hits, rays.sample);
-    const Reference own = make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
+    const Reference own =
+        make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
     result.own = compare_with(input.scene, input.curves, rays, sample, own, false);
     if (!rays.common.hits.empty())
         result.model = compare_with(input.scene, input.curves, rays, sample, rays.common, true);

@@ -21,10 +21,10 @@ std::vector<Ray> selected(const Rays& rays, const std::vector<uint32_t>& indices
 /// A ray set with what its errors are measured by: the sampled rays and the common reference's answer.
 struct MeasuredRays {
     Rays rays;
-    bool shadow = false;            // only hit or miss counts
-    std::vector<uint32_t> sample;   // indices of the rays below
+    bool shadow = false;           // only hit or miss counts
+    std::vector<uint32_t> sample;  // indices of the rays below
     std::vector<Ray> sample_rays;
-    Reference common;               // empty: no model error is wanted
+    Reference common;  // empty: no model error is wanted
 };
 
 /// What a case needs besides its primitive.
@@ -60,8 +60,8 @@ PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice)
 CaseResult run_case(const CaseInput& input, const PreparedCase& prepared, const MeasuredRays& rays);
 
 /// Errors of given hits at the sampled rays, as run_case measures them.
-Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays, const Hits& sample_hits,
-                        const Reference& reference, bool against_curves);
+Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays,
+                        const Hits& sample_hits, const Reference& reference, bool against_curves);
 
 /// The hits at the sampled rays.
 Hits selected(const Hits& hits, const std::vector<uint32_t>& indices);

@@ -12,22 +12,16 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-float& value_of(RayError& error, Measure measure) {
-    return error.measures[static_cast<size_t>(measure)];
-}
+float& value_of(RayError& error, Measure measure) { return error.measures[static_cast<size_t>(measure)]; }
 
 void set(RayError& error, Measure measure, double value) {
     value_of(error, measure) = static_cast<float>(value);
 }
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A distance in units of size; 0 of 0 is no error.
-double relative(double distance, double size) {
-    return distance == 0 ? 0.0 : distance / size;
-}
+double relative(double distance, double size) { return distance == 0 ? 0.0 : distance / size; }
 
 }  // namespace
 

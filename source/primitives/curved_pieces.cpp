@@ -52,7 +52,8 @@ Geometry build_curved(const Curves& curves, const std::vector<uint32_t>& pieces,
     geometry.curve_records.stride = sizeof(Curve);
     geometry.curve_records.bytes.resize(curves.curves.size() * sizeof(Curve));
     if (!curves.curves.empty())
-        std::memcpy(geometry.curve_records.bytes.data(), curves.curves.data(), geometry.curve_records.bytes.size());
+        std::memcpy(geometry.curve_records.bytes.data(), curves.curves.data(),
+                    geometry.curve_records.bytes.size());
     return geometry;
 }
 

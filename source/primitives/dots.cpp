@@ -211,8 +211,10 @@ std::vector<ParameterInfo> parameters() {
 }
 
 Tolerance tolerance(const BuildOptions& options) {
-    if (options.parameters.is("offset", "none")) return {.wrong = 5e-4, .distance_p99 = 2e-2,
-                                                         .reason = "the driver's own triangle test rounds in world space"};
+    if (options.parameters.is("offset", "none"))
+        return {.wrong = 5e-4,
+                .distance_p99 = 2e-2,
+                .reason = "the driver's own triangle test rounds in world space"};
     return {0.5, 1e3, "offset=round moves hits off the triangles that they are compared with"};
 }
 

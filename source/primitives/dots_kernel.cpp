@@ -12,9 +12,9 @@ namespace kernels {
 template <class real>
 struct DotsKernel {
     STRANDLAB_KERNEL_TYPES
-#include "shaders/primitives/dots.h"
 #include "shaders/shared/ray_frame.h"
 #include "shaders/shared/triangle.h"
+#include "shaders/primitives/dots.h"
 };
 
 }  // namespace kernels
@@ -102,8 +102,6 @@ uint32_t dots_first_joint(const Geometry& geometry, Leaf leaf) {
     return first + leaf.piece();
 }
 
-CpuIntersectors dots_cpu() {
-    return {intersect<float>, intersect<double>, finish<float>, finish<double>};
-}
+CpuIntersectors dots_cpu() { return {intersect<float>, intersect<double>, finish<float>, finish<double>}; }
 
 }  // namespace strandlab

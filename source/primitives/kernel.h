@@ -21,13 +21,12 @@
 #define FUNCTION static inline
 
 // real3(v) converts and real3(x, y, z) constructs, as in GLSL.
-#define STRANDLAB_KERNEL_TYPES                       \
-    using real2 = glm::vec<2, real>;                 \
-    using real3 = glm::vec<3, real>;                 \
-    using real4 = glm::vec<4, real>;                 \
-    using uint = uint32_t;                           \
-    static constexpr real real_splitter =            \
-        std::is_same_v<real, float> ? real(4097) : real(134217729); \
+#define STRANDLAB_KERNEL_TYPES                                                                        \
+    using real2 = glm::vec<2, real>;                                                                  \
+    using real3 = glm::vec<3, real>;                                                                  \
+    using real4 = glm::vec<4, real>;                                                                  \
+    using uint = uint32_t;                                                                            \
+    static constexpr real real_splitter = std::is_same_v<real, float> ? real(4097) : real(134217729); \
     static constexpr real real_epsilon = std::numeric_limits<real>::epsilon();
 
 namespace strandlab::kernels {

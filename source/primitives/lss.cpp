@@ -23,7 +23,8 @@ namespace {
 enum ConstantId : uint32_t { open_ends = 16 };
 
 std::span<const LssRecord> records_of(const Geometry& geometry) {
-    return {reinterpret_cast<const LssRecord*>(geometry.leaf_records.bytes.data()), geometry.leaf_records.size()};
+    return {reinterpret_cast<const LssRecord*>(geometry.leaf_records.bytes.data()),
+            geometry.leaf_records.size()};
 }
 
 template <class Real>
@@ -32,9 +33,10 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
     const LssRecord& record = records_of(geometry)[index];
     const Leaf leaf = geometry.leaves[index];
     const bool open = geometry.constant(open_ends) != 0;
-    return Kernel::lss_intersect(glm::vec<3, Real>(ray.origin), glm::vec<3, Real>(ray.direction), Real(ray.tmin),
-                                 tmax, glm::vec<4, Real>(record.start), glm::vec<4, Real>(record.end), leaf.piece(),
-                                 leaf.pieces(), open && (leaf.flags() & Leaf::begins_strand),
+    return Kernel::lss_intersect(glm::vec<3, Real>(ray.origin), glm::vec<3, Real>(ray.direction),
+                                 Real(ray.tmin), tmax, glm::vec<4, Real>(record.start),
+                                 glm::vec<4, Real>(record.end), leaf.piece(), leaf.pieces(),
+                                 open && (leaf.flags() & Leaf::begins_strand),
                                  open && (leaf.flags() & Leaf::ends_strand), hit.t, hit.u, hit.normal);
 }
 

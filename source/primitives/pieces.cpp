@@ -39,7 +39,8 @@ std::vector<uint32_t> straight_pieces(const Curves& curves, const Parameters& pa
     const double tolerance = parameters.number("tolerance");
     std::vector<uint32_t> pieces(curves.curves.size(), parameters.integer("segments"));
     if (tolerance > 0)
-        parallel_for(pieces.size(), [&](size_t i) { pieces[i] = pieces_within(curves.curves[i], tolerance); });
+        parallel_for(pieces.size(),
+                     [&](size_t i) { pieces[i] = pieces_within(curves.curves[i], tolerance); });
     return pieces;
 }
 
@@ -59,14 +60,15 @@ void fill_leaves(const Curves& curves, uint32_t curve, uint32_t pieces, Leaf* le
     }
 }
 
-void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags, Geometry& geometry) {
+void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags,
+                 Geometry& geometry) {
     const std::vector<size_t> offsets = leaf_offsets(pieces);
     geometry.leaves.resize(offsets.back());
     parallel_for(pieces.size(), [&](size_t i) {
         fill_leaves(curves, static_cast<uint32_t>(i), pieces[i], geometry.leaves.data() + offsets[i]);
     });
-    const bool uniform =
-        !pieces.empty() && std::all_of(pieces.begin(), pieces.end(), [&](uint32_t n) { return n == pieces[0]; });
+    const bool uniform = !pieces.empty() && std::all_of(pieces.begin(), pieces.end(),
+                                                        [&](uint32_t n) { return n == pieces[0]; });
     geometry.uniform_pieces = uniform && !needs_flags ? pieces[0] : 0;
 }
 

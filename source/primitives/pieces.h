@@ -25,7 +25,8 @@ void fill_leaves(const Curves& curves, uint32_t curve, uint32_t pieces, Leaf* le
 
 /// The leaf table of all curves; sets uniform_pieces when every curve has the same count and flags are
 /// not needed.
-void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags, Geometry& geometry);
+void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags,
+                 Geometry& geometry);
 
 /// Point i of n + 1 equally spaced in u, rounded to float: shared bit for bit by neighbouring pieces.
 glm::vec4 joint(const Curve& curve, uint32_t i, uint32_t n);

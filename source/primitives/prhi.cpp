@@ -9,8 +9,8 @@ namespace kernels {
 template <class real>
 struct PrhiKernel {
     STRANDLAB_KERNEL_TYPES
-#include "shaders/primitives/prhi.h"
 #include "shaders/shared/ray_frame.h"
+#include "shaders/primitives/prhi.h"
 };
 
 }  // namespace kernels
@@ -40,9 +40,7 @@ Surface surface(const Curves& curves, const BuildOptions& options) {
     return curved_surface(curves, Surface::Sweep::disc, options.caps);
 }
 
-bool is_robust(const Parameters& parameters) {
-    return parameters.is("variant", "robust");
-}
+bool is_robust(const Parameters& parameters) { return parameters.is("variant", "robust"); }
 
 /// A number that defaults, as 0, to what the variant uses.
 uint32_t number_or(const Parameters& parameters, const char* name, uint32_t published,

@@ -62,7 +62,8 @@ struct Primitive {
     std::string name;     // one word: folders, options and reports use it
     std::string summary;  // one line
     std::vector<ParameterInfo> parameters;
-    std::vector<Caps> caps;   // cap modes that it can do; the first is its own, used unless another is asked for
+    std::vector<Caps>
+        caps;  // cap modes that it can do; the first is its own, used unless another is asked for
     bool diagnostic = false;  // a measuring aid, not a primitive to choose: left out of default runs
 
     /// The surface that the records of build decode to: what its intersector error is measured against.

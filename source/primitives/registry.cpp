@@ -12,11 +12,7 @@ namespace strandlab {
 
 std::span<const Primitive> primitives() {
     static const std::array all = {
-        dots(),
-        lss(),
-        prhi(),
-        rocaps(),
-        null_primitive(),
+        dots(), lss(), prhi(), rocaps(), null_primitive(),
     };
     return all;
 }

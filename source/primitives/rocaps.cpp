@@ -14,11 +14,11 @@ namespace kernels {
 template <class real>
 struct RocapsKernel {
     STRANDLAB_KERNEL_TYPES
+#include "shaders/shared/ray_frame.h"
 #include "shaders/primitives/lss.h"
 #include "shaders/primitives/rocaps.h"
 #include "shaders/primitives/rocaps_published.h"
 #include "shaders/primitives/rocaps_verified.h"
-#include "shaders/shared/ray_frame.h"
 };
 
 }  // namespace kernels
@@ -96,7 +96,8 @@ Geometry build(const Curves& curves, const BuildOptions& options) {
 
 Tolerance tolerance(const BuildOptions& options) {
     if (options.parameters.is("variant", "verified")) return {};
-    return {0.5, 10, "published capsules are chords of the bend, and their frame rounds to ulps of the distance"};
+    return {0.5, 10,
+            "published capsules are chords of the bend, and their frame rounds to ulps of the distance"};
 }
 
 }  // namespace

@@ -6,9 +6,7 @@
 namespace strandlab {
 namespace {
 
-bool same_place(const glm::vec4& a, const glm::vec4& b) {
-    return glm::vec3(a) == glm::vec3(b);
-}
+bool same_place(const glm::vec4& a, const glm::vec4& b) { return glm::vec3(a) == glm::vec3(b); }
 
 /// Direction that a frame between two chords is normal to; each may be 0 (there is none).
 glm::dvec3 tangent_between(const glm::dvec3& incoming, const glm::dvec3& outgoing) {

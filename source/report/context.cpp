@@ -29,9 +29,7 @@ std::string value_in(const char* path, std::string_view key, char separator) {
     return "";
 }
 
-std::string or_unknown(std::string text) {
-    return text.empty() ? "unknown" : text;
-}
+std::string or_unknown(std::string text) { return text.empty() ? "unknown" : text; }
 
 /// Cores that the scheduler lets this process use: fewer than the machine has inside a container.
 size_t usable_cores() {

@@ -119,9 +119,7 @@ std::string layer_name(std::string_view channel) {
     return std::string(dot == std::string_view::npos ? "" : channel.substr(0, dot));
 }
 
-size_t size_of(ChannelType type) {
-    return type == ChannelType::byte ? 1 : 4;
-}
+size_t size_of(ChannelType type) { return type == ChannelType::byte ? 1 : 4; }
 
 float as_float(ChannelType type, const unsigned char* from) {
     if (type == ChannelType::byte) return static_cast<float>(*from) / 255.0f;

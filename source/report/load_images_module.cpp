@@ -56,9 +56,7 @@ const ImagesModule& open_module(const std::string& image) {
 
 #ifdef STRANDLAB_IMAGES
 
-bool has_images() {
-    return !find_module().empty();
-}
+bool has_images() { return !find_module().empty(); }
 
 const ImagesModule& load_images_module(const std::string& path) {
     static const ImagesModule& module = open_module(path);
@@ -67,9 +65,7 @@ const ImagesModule& load_images_module(const std::string& path) {
 
 #else
 
-bool has_images() {
-    return false;
-}
+bool has_images() { return false; }
 
 const ImagesModule& load_images_module(const std::string& path) {
     fail(ExitCode::usage,

@@ -30,13 +30,9 @@ std::optional<double> number_of(const Json& value) {
 
 namespace {
 
-Json optional_number(const std::optional<double>& value) {
-    return value ? json_number(*value) : Json();
-}
+Json optional_number(const std::optional<double>& value) { return value ? json_number(*value) : Json(); }
 
-Json hash_text(uint64_t hash) {
-    return fmt::format("{:016x}", hash);
-}
+Json hash_text(uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 Json to_json(const Count& count) {
     const Interval bounds = count.bounds();

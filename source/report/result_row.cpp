@@ -25,11 +25,7 @@ PrimitiveFacts facts_of(const PrimitiveChoice& choice, Caps wanted_caps) {
 }
 
 DeviceFacts facts_of(const DeviceInfo& info, bool validation_layers) {
-    return {info.name,
-            info.driver,
-            info.api_version,
-            info.kind,
-            info.has_ray_tracing_hardware,
+    return {info.name,        info.driver, info.api_version, info.kind, info.has_ray_tracing_hardware,
             validation_layers};
 }
 

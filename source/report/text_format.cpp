@@ -37,8 +37,6 @@ std::string bytes_text(uint64_t bytes) {
     return fmt::format("{} {}", significant(value), units[unit]);
 }
 
-std::string percent(double share) {
-    return significant(share * 100, share >= 0.995 ? 3 : 2) + " %";
-}
+std::string percent(double share) { return significant(share * 100, share >= 0.995 ? 3 : 2) + " %"; }
 
 }  // namespace strandlab

@@ -45,7 +45,8 @@ float ulp(float magnitude) {
 void round_outwards(Box& box, int axis, double low, double high, double magnitude) {
     const float margin = outward_ulps * ulp(static_cast<float>(magnitude));
     box.low[axis] = std::nextafter(static_cast<float>(low) - margin, -std::numeric_limits<float>::infinity());
-    box.high[axis] = std::nextafter(static_cast<float>(high) + margin, std::numeric_limits<float>::infinity());
+    box.high[axis] =
+        std::nextafter(static_cast<float>(high) + margin, std::numeric_limits<float>::infinity());
 }
 
 }  // namespace

@@ -21,9 +21,8 @@ void permute(Records& records, const std::vector<uint32_t>& order) {
     std::vector<std::byte> old(records.bytes.size());
     old.swap(records.bytes);
     const size_t stride = records.stride;
-    parallel_for(order.size(), [&](size_t i) {
-        std::memcpy(&records.bytes[i * stride], &old[order[i] * stride], stride);
-    });
+    parallel_for(order.size(),
+                 [&](size_t i) { std::memcpy(&records.bytes[i * stride], &old[order[i] * stride], stride); });
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ Curves all_curves(const Scene& scene) {
     for (const Curves& model : scene.models) {
         const auto first = static_cast<uint32_t>(all.curves.size());
         all.curves.insert(all.curves.end(), model.curves.begin(), model.curves.end());
-        for (const StrandRange& strand : model.strands) all.strands.push_back({first + strand.first, strand.count});
+        for (const StrandRange& strand : model.strands)
+            all.strands.push_back({first + strand.first, strand.count});
     }
     return all;
 }

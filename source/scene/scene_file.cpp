@@ -32,10 +32,12 @@ struct SceneReader {
         fail(ExitCode::bad_input, "{}: {}", path, fmt::format(format, std::forward<Args>(args)...));
     }
 
-    void allow_keys(const Json& object, const std::string& where, std::initializer_list<const char*> keys) const {
+    void allow_keys(const Json& object, const std::string& where,
+                    std::initializer_list<const char*> keys) const {
         if (!object.is_object()) reject("{} must be an object", where);
         for (const auto& [key, value] : object.items())
-            if (std::find(keys.begin(), keys.end(), key) == keys.end()) reject("{}: unknown key '{}'", where, key);
+            if (std::find(keys.begin(), keys.end(), key) == keys.end())
+                reject("{}: unknown key '{}'", where, key);
     }
 
     float number(const Json& object, const std::string& where, const char* key, float fallback) const {
@@ -48,7 +50,8 @@ struct SceneReader {
 
     Curves model(const Json& entry, const std::string& where, CurveOptions options) const {
         allow_keys(entry, where, {"file", "strands", "radius", "radius_tip", "unit_scale"});
-        if (!entry.contains("file") || !entry["file"].is_string()) reject("{}: needs \"file\", a path", where);
+        if (!entry.contains("file") || !entry["file"].is_string())
+            reject("{}: needs \"file\", a path", where);
         options.override_radii |= entry.contains("radius") || entry.contains("radius_tip");
         options.root_radius = number(entry, where, "radius", options.root_radius);
         options.tip_radius = number(entry, where, "radius_tip", options.tip_radius);
@@ -65,7 +68,8 @@ struct SceneReader {
     SceneInstance instance(const Json& entry, const std::string& where, size_t models) const {
         allow_keys(entry, where, {"model", "transform"});
         SceneInstance instance;
-        if (!entry.contains("model") || !entry["model"].is_number_unsigned() || entry["model"].get<uint64_t>() >= models)
+        if (!entry.contains("model") || !entry["model"].is_number_unsigned() ||
+            entry["model"].get<uint64_t>() >= models)
             reject("{}: needs \"model\", a number from 0 to {}", where, models - 1);
         instance.model = entry["model"].get<uint32_t>();
         if (entry.contains("transform")) instance.world_from_object = transform(entry["transform"], where);
@@ -73,7 +77,8 @@ struct SceneReader {
     }
 
     glm::mat4x3 transform(const Json& numbers, const std::string& where) const {
-        if (!numbers.is_array() || numbers.size() != 12) reject("{}: transform needs 12 numbers, three rows of four", where);
+        if (!numbers.is_array() || numbers.size() != 12)
+            reject("{}: transform needs 12 numbers, three rows of four", where);
         glm::mat4x3 matrix;
         for (int i = 0; i < 12; ++i) {
             if (!numbers[i].is_number() || !std::isfinite(numbers[i].get<float>()))
@@ -81,7 +86,8 @@ struct SceneReader {
             matrix[i % 4][i / 4] = numbers[i].get<float>();
         }
         const double volume = glm::determinant(glm::dmat3(glm::mat3(matrix)));
-        if (!(std::abs(volume) > 0)) reject("{}: the transform flattens the model (determinant {:g})", where, volume);
+        if (!(std::abs(volume) > 0))
+            reject("{}: the transform flattens the model (determinant {:g})", where, volume);
         return matrix;
     }
 };

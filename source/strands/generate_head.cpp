@@ -8,9 +8,7 @@ namespace {
 
 constexpr size_t steps_per_curve = 4;
 
-bool is_on_scalp(const glm::dvec3& u) {
-    return u.y > -0.45 && u.y > 0.85 * u.z - 0.3;
-}
+bool is_on_scalp(const glm::dvec3& u) { return u.y > -0.45 && u.y > 0.85 * u.z - 0.3; }
 
 /// Hair falls away from a parting on top, a little backwards.
 glm::dvec3 combing_direction(const glm::dvec3& u) {

@@ -8,12 +8,8 @@ namespace {
 /// Sideways displacement of a strand at arc length s of its axis, in the plane across it.
 using Displacement = glm::dvec2 (*)(double amplitude, double phase);
 
-glm::dvec2 no_displacement(double, double) {
-    return glm::dvec2(0);
-}
-glm::dvec2 wave(double amplitude, double phase) {
-    return {amplitude * sin_cos(phase).sin, 0};
-}
+glm::dvec2 no_displacement(double, double) { return glm::dvec2(0); }
+glm::dvec2 wave(double amplitude, double phase) { return {amplitude * sin_cos(phase).sin, 0}; }
 glm::dvec2 turn(double amplitude, double phase) {
     const SinCos angle = sin_cos(phase);
     return {amplitude * angle.cos, amplitude * angle.sin};

@@ -48,9 +48,7 @@ const std::vector<Generator>& generators() {
     return list;
 }
 
-bool is_generator_spec(std::string_view model) {
-    return model.substr(0, prefix.size()) == prefix;
-}
+bool is_generator_spec(std::string_view model) { return model.substr(0, prefix.size()) == prefix; }
 
 Curves generate(std::string_view spec) {
     if (!is_generator_spec(spec)) fail(ExitCode::usage, "{}: not generate:NAME,key=value,...", spec);

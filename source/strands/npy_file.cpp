@@ -14,9 +14,7 @@ namespace {
 const NpyItem curve_item{"<f4", {4, 4}};
 const NpyItem strand_item{"<i4", {2}};
 
-bool is_joined(const Curve& a, const Curve& b) {
-    return std::memcmp(&a[3], &b[0], sizeof(glm::vec3)) == 0;
-}
+bool is_joined(const Curve& a, const Curve& b) { return std::memcmp(&a[3], &b[0], sizeof(glm::vec3)) == 0; }
 
 /// Runs of curves that share end points.
 std::vector<StrandRange> joined_runs(const std::vector<Curve>& curves) {

@@ -24,9 +24,7 @@ void check_options(const CurveOptions& options) {
             fail(ExitCode::usage, "radius {:g} is not a number from 0 to {:g}", radius, largest_coordinate);
 }
 
-glm::vec4 scaled(const glm::vec4& point, float scale) {
-    return glm::vec4(glm::dvec4(point) * double(scale));
-}
+glm::vec4 scaled(const glm::vec4& point, float scale) { return glm::vec4(glm::dvec4(point) * double(scale)); }
 
 void check_points(const Strands& strands, float scale) {
     const auto bad = first_where(strands.points.size(),
@@ -73,9 +71,7 @@ double knot_interval(Basis basis, const glm::dvec4& a, const glm::dvec4& b) {
     return basis == Basis::centripetal ? std::sqrt(glm::length(glm::dvec3(b - a))) : 1.0;
 }
 
-glm::dvec4 reflected(const glm::dvec4& end, const glm::dvec4& next) {
-    return 2.0 * end - next;
-}
+glm::dvec4 reflected(const glm::dvec4& end, const glm::dvec4& next) { return 2.0 * end - next; }
 
 Curve line(const glm::dvec4& a, const glm::dvec4& b) {
     return to_float({a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b});

@@ -46,9 +46,7 @@ EmbreeDefinition embree_definition(const Surface& surface) {
 
 #if STRANDLAB_EMBREE
 
-bool embree_available() {
-    return true;
-}
+bool embree_available() { return true; }
 
 namespace {
 
@@ -300,9 +298,7 @@ void EmbreeScene::trace(std::span<const Ray> rays, std::span<ReferenceHit> hits)
                  [&](size_t i) { hits[i] = state_->describe(rays[i], state_->nearest(rays[i])); });
 }
 
-size_t EmbreeScene::bytes() const {
-    return static_cast<size_t>(std::max<ptrdiff_t>(state_->bytes, 0));
-}
+size_t EmbreeScene::bytes() const { return static_cast<size_t>(std::max<ptrdiff_t>(state_->bytes, 0)); }
 
 std::string embree_version() {
     return fmt::format("{}.{}.{}", RTC_VERSION_MAJOR, RTC_VERSION_MINOR, RTC_VERSION_PATCH);
@@ -310,12 +306,8 @@ std::string embree_version() {
 
 #else
 
-bool embree_available() {
-    return false;
-}
-std::string embree_version() {
-    return {};
-}
+bool embree_available() { return false; }
+std::string embree_version() { return {}; }
 
 struct EmbreeScene::State {};
 
@@ -327,9 +319,7 @@ EmbreeScene::EmbreeScene(const Surface&) {
 // No scene can exist.
 void EmbreeScene::trace(std::span<const Ray>, std::span<Hit>) const {}
 void EmbreeScene::trace(std::span<const Ray>, std::span<ReferenceHit>) const {}
-size_t EmbreeScene::bytes() const {
-    return 0;
-}
+size_t EmbreeScene::bytes() const { return 0; }
 
 #endif
 

@@ -1,10 +1,10 @@
 #include "trace/gpu_scene.h"
 
+#include "shaders/shared/trace_parameters.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "gpu/embedded_shaders.h"
 #include "scene/leaf_order.h"
-#include "shaders/shared/trace_parameters.h"
 
 #include <algorithm>
 #include <cassert>
@@ -31,7 +31,8 @@ uint64_t leaves_per_structure(const DeviceInfo& info, uint64_t asked) {
     return std::max<uint64_t>(1, asked != 0 ? std::min(asked, most) : most);
 }
 
-BottomLevelInput input_of(const Geometry& geometry, const std::vector<Box>& padded_boxes, size_t first, size_t count) {
+BottomLevelInput input_of(const Geometry& geometry, const std::vector<Box>& padded_boxes, size_t first,
+                          size_t count) {
     BottomLevelInput input;
     if (geometry.is_triangles()) {
         input.vertices = geometry.vertices;
@@ -77,7 +78,8 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
         buffers.leaves = make_buffer(device_, std::span<const Leaf>(geometry.leaves), Buffer::Use::storage);
         cost_.record_bytes += geometry.leaves.size() * sizeof(Leaf);
     }
-    if (geometry.leaf_records.stride != 0) buffers.leaf_records = upload(device_, geometry.leaf_records.bytes, cost_);
+    if (geometry.leaf_records.stride != 0)
+        buffers.leaf_records = upload(device_, geometry.leaf_records.bytes, cost_);
     if (geometry.curve_records.stride != 0)
         buffers.curve_records = upload(device_, geometry.curve_records.bytes, cost_);
     if (geometry.shading_records.stride != 0 && (options.normals || geometry.always_shades))
@@ -92,12 +94,14 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
         const size_t count = std::min(most, geometry.leaf_count() - first);
         BottomLevelInput input = input_of(geometry, boxes, first, count);
         input.compact = options.compact;
-        parts_.push_back({build_bottom_level(device_, input, cost_.builds), index, static_cast<uint32_t>(first)});
+        parts_.push_back(
+            {build_bottom_level(device_, input, cost_.builds), index, static_cast<uint32_t>(first)});
         ++cost_.structure_count;
     }
 }
 
-void GpuScene::add_instances(std::span<const SceneInstance> instances, const std::vector<SceneModel>& models) {
+void GpuScene::add_instances(std::span<const SceneInstance> instances,
+                             const std::vector<SceneModel>& models) {
     if (parts_.empty()) return;
     std::vector<layout::GeometryRow> rows;
     std::vector<InstanceInput> inputs;
@@ -107,13 +111,15 @@ void GpuScene::add_instances(std::span<const SceneInstance> instances, const std
             const ModelBuffers& buffers = model_buffers_[part.model];
             inputs.push_back({instances[i].world_from_object, part.structure.address(),
                               static_cast<uint32_t>(rows.size())});
-            rows.push_back({buffers.leaves.address(), buffers.leaf_records.address(), buffers.curve_records.address(),
-                            buffers.shading_records.address(), part.first_leaf, models[part.model].first_curve,
+            rows.push_back({buffers.leaves.address(), buffers.leaf_records.address(),
+                            buffers.curve_records.address(), buffers.shading_records.address(),
+                            part.first_leaf, models[part.model].first_curve,
                             models[part.model].geometry.uniform_pieces, i});
         }
     }
     if (rows.size() >= (size_t(1) << 24))
-        fail(ExitCode::device_lost, "{} instances of structures are more than Vulkan's 24-bit index takes", rows.size());
+        fail(ExitCode::device_lost, "{} instances of structures are more than Vulkan's 24-bit index takes",
+             rows.size());
     rows_ = make_buffer(device_, std::span<const layout::GeometryRow>(rows), Buffer::Use::storage);
     cost_.record_bytes += rows.size() * sizeof(rows[0]);
     top_ = build_top_level(device_, inputs, cost_.builds);
@@ -133,12 +139,14 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     cost_.pipeline_ms = milliseconds_since(start);
 }
 
-std::vector<RayTracingPipeline::Launch> GpuScene::launches(const Rays& rays, layout::TraceParameters parameters) const {
+std::vector<RayTracingPipeline::Launch> GpuScene::launches(const Rays& rays,
+                                                           layout::TraceParameters parameters) const {
     const auto count = static_cast<uint32_t>(rays.rays.size());
-    // Two-dimensional launches keep neighbouring rays together on GPUs; sets without a shape get one.
-    constexpr uint32_t usual_width = 1920;
+    // Pictures are launched in their own shape, which keeps neighbouring rays together on GPUs. Other sets
+    // have neighbours only along the list: in a launch of another shape, tiles of it would mix far rays.
+    constexpr uint32_t longest_row = 1u << 16;
     const bool shaped = rays.width != 0 && uint64_t(rays.width) * rays.height >= count;
-    const uint32_t width = shaped ? rays.width : std::min(count, usual_width);
+    const uint32_t width = shaped ? rays.width : std::min(count, longest_row);
     const uint32_t height = (count + width - 1) / width;
     const auto rows = static_cast<uint32_t>(
         std::clamp<uint64_t>(device_.info().max_launch / width, 1, height));  // of one launch
@@ -167,7 +175,9 @@ TraceResult GpuScene::trace(const Rays& rays, const TraceOptions& options) const
     const Buffer ray_buffer = make_buffer(device_, std::span<const Ray>(valid), Buffer::Use::storage);
     const Buffer hit_buffer(device_, std::max<size_t>(16, valid.size() * sizeof(Hit)), Buffer::Use::storage);
     Buffer normal_buffer;
-    if (normals_) normal_buffer = Buffer(device_, std::max<size_t>(16, valid.size() * sizeof(glm::vec3)), Buffer::Use::storage);
+    if (normals_)
+        normal_buffer =
+            Buffer(device_, std::max<size_t>(16, valid.size() * sizeof(glm::vec3)), Buffer::Use::storage);
     layout::TraceParameters parameters{top_.address(), ray_buffer.address(), hit_buffer.address(),
                                        normal_buffer.address(), rows_.address()};
     parameters.ray_count = static_cast<uint32_t>(valid.size());

@@ -1,6 +1,7 @@
 // A scene on the device for one primitive: structures, records, pipeline; and tracing rays through it.
 #pragma once
 
+#include "shaders/shared/trace_parameters.h"
 #include "gpu/acceleration_structure.h"
 #include "gpu/device.h"
 #include "gpu/ray_tracing_pipeline.h"
@@ -8,7 +9,6 @@
 #include "scene/hits.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
-#include "shaders/shared/trace_parameters.h"
 
 #include <glm/glm.hpp>
 
@@ -85,7 +85,8 @@ class GpuScene {
     void add_model(const SceneModel& model, uint32_t index, const SceneOptions& options);
     void add_instances(std::span<const SceneInstance> instances, const std::vector<SceneModel>& models);
     void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants);
-    std::vector<RayTracingPipeline::Launch> launches(const Rays& rays, layout::TraceParameters parameters) const;
+    std::vector<RayTracingPipeline::Launch> launches(const Rays& rays,
+                                                     layout::TraceParameters parameters) const;
 
     Device device_;
     bool normals_ = false;

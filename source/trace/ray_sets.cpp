@@ -204,7 +204,6 @@ LoadedRays rays_from_floats(std::string name, std::span<const float> values) {
     loaded.rays.rays.resize(values.size() / 8);
     std::memcpy(static_cast<void*>(loaded.rays.rays.data()), values.data(), values.size_bytes());
     loaded.invalid = disable_invalid(loaded.rays.rays);
-    set_launch_shape(loaded.rays);
     return loaded;
 }
 

@@ -64,7 +64,8 @@ Reference trace_instances(const Scene& scene, std::span<const Surface> surfaces,
     reference.decisive.resize(rays.size());
     const auto same = [&](const ReferenceHit& a, const ReferenceHit& b) {
         if (a.is_hit() != b.is_hit()) return false;
-        return !a.is_hit() || (a.instance == b.instance && curves.strand_of(a.curve) == curves.strand_of(b.curve));
+        return !a.is_hit() ||
+               (a.instance == b.instance && curves.strand_of(a.curve) == curves.strand_of(b.curve));
     };
     parallel_for(rays.size(), [&](size_t i) {
         reference.decisive[i] = same(reference.hits[i], larger[i]) && same(reference.hits[i], smaller[i]);
@@ -81,8 +82,8 @@ std::vector<Surface> surfaces_of(const Scene& scene, const std::function<Surface
 }
 
 std::vector<Surface> common_surfaces(const Scene& scene, Caps caps) {
-    return surfaces_of(scene,
-                       [caps](const Curves& curves) { return curved_surface(curves, Surface::Sweep::sphere, caps); });
+    return surfaces_of(
+        scene, [caps](const Curves& curves) { return curved_surface(curves, Surface::Sweep::sphere, caps); });
 }
 
 uint64_t hash(const Surface& surface) {
@@ -91,10 +92,12 @@ uint64_t hash(const Surface& surface) {
     for (const SurfacePiece& piece : surface.pieces) {
         sum.add(piece.control.data(), sizeof piece.control);
         sum.add(&piece.u0, sizeof piece.u0).add(&piece.u1, sizeof piece.u1);
-        sum.add_number(piece.curve * 8ull + piece.straight * 4u + piece.begins_strand * 2u + piece.ends_strand);
+        sum.add_number(piece.curve * 8ull + piece.straight * 4u + piece.begins_strand * 2u +
+                       piece.ends_strand);
     }
     for (const SurfaceTriangle& triangle : surface.triangles) {
-        sum.add(triangle.vertex.data(), sizeof triangle.vertex).add(triangle.centre.data(), sizeof triangle.centre);
+        sum.add(triangle.vertex.data(), sizeof triangle.vertex)
+            .add(triangle.centre.data(), sizeof triangle.centre);
         sum.add(triangle.u.data(), sizeof triangle.u).add_number(triangle.curve);
     }
     return sum.value();

@@ -35,13 +35,16 @@ class CpuTraced : public TracedScene {
   public:
     CpuTraced(const Primitive& primitive, Precision precision, std::vector<SceneModel> models,
               std::span<const SceneInstance> instances, const SceneOptions& options)
-        : models_(std::move(models)), instances_(instances.begin(), instances.end()), normals_(options.normals) {
+        : models_(std::move(models)),
+          instances_(instances.begin(), instances.end()),
+          normals_(options.normals) {
         const auto start = std::chrono::steady_clock::now();
         tracers_.reserve(models_.size());
         for (const SceneModel& model : models_) {
             tracers_.emplace_back(model.geometry, primitive, precision, options.ray_extent);
             const Geometry& g = model.geometry;
-            cost_.record_bytes += g.leaves.size() * sizeof(Leaf) + g.leaf_records.bytes.size() + g.curve_records.bytes.size();
+            cost_.record_bytes +=
+                g.leaves.size() * sizeof(Leaf) + g.leaf_records.bytes.size() + g.curve_records.bytes.size();
             cost_.leaf_count += g.leaf_count();
             cost_.structure_count += 1;
         }
@@ -107,7 +110,8 @@ class CpuTraced : public TracedScene {
 TraceDevice::TraceDevice(const DeviceOptions& options) {
     if (options.selector == "cpu-float" || options.selector == "cpu-double") {
         if (options.validation)
-            fail(ExitCode::usage, "--validation: {} does not use Vulkan; leave one of the two out", options.selector);
+            fail(ExitCode::usage, "--validation: {} does not use Vulkan; leave one of the two out",
+                 options.selector);
         is_double_ = options.selector == "cpu-double";
         info_.name = options.selector;
         info_.driver = fmt::format("C++ {}, {} threads", is_double_ ? "double" : "float",
@@ -128,15 +132,16 @@ void TraceDevice::check_validation() const {
     if (!has_validation()) return;
     const std::vector<std::string> messages = gpu_->validation_messages();
     if (messages.empty()) return;
-    fail(ExitCode::device_lost, "--validation: {} messages, the first: {}", messages.size(), messages.front());
+    fail(ExitCode::device_lost, "--validation: {} messages, the first: {}", messages.size(),
+         messages.front());
 }
 
 std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, std::vector<SceneModel> models,
                                                   std::span<const SceneInstance> instances,
                                                   const SceneOptions& options) const {
     if (gpu_) return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, options);
-    return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single, std::move(models),
-                                       instances, options);
+    return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single,
+                                       std::move(models), instances, options);
 }
 
 }  // namespace strandlab

@@ -32,7 +32,8 @@ class TraceDevice {
     void check_validation() const;
 
     std::unique_ptr<TracedScene> prepare(const Primitive& primitive, std::vector<SceneModel> models,
-                                         std::span<const SceneInstance> instances, const SceneOptions& options) const;
+                                         std::span<const SceneInstance> instances,
+                                         const SceneOptions& options) const;
 
   private:
     std::unique_ptr<Device> gpu_;  // none for the C++ versions

@@ -1,7 +1,6 @@
 // Every registered primitive against the contract of primitives/primitive.h: what it describes, what it
 // builds, that its boxes hold its surface, and that its C++ text finds its own surface.
 #include "conformance_scene.h"
-
 #include "gpu/embedded_shaders.h"
 #include "primitives/primitive.h"
 
@@ -23,7 +22,8 @@ class Contract : public testing::TestWithParam<std::string> {
 TEST_P(Contract, DescribesItself) {
     EXPECT_FALSE(primitive().summary.empty());
     EXPECT_FALSE(primitive().caps.empty());
-    for (const char c : primitive().name) EXPECT_TRUE(std::islower(static_cast<unsigned char>(c))) << primitive().name;
+    for (const char c : primitive().name)
+        EXPECT_TRUE(std::islower(static_cast<unsigned char>(c))) << primitive().name;
     EXPECT_NE(primitive().surface, nullptr) << "surface() is missing";
     EXPECT_NE(primitive().build, nullptr) << "build() is missing";
     EXPECT_NE(primitive().cpu.single, nullptr) << "the float version is missing";
@@ -36,7 +36,8 @@ TEST_P(Contract, ParametersHaveHelpAndDefaultsInRange) {
         EXPECT_TRUE(names.insert(info.name).second) << info.name << " stands twice";
         EXPECT_FALSE(info.help.empty()) << info.name;
         Parameters parameters(primitive().parameters);
-        EXPECT_NO_THROW(parameters.set(primitive().name, primitive().parameters, info.name, info.default_value))
+        EXPECT_NO_THROW(
+            parameters.set(primitive().name, primitive().parameters, info.name, info.default_value))
             << info.name << "=" << info.default_value;
     }
 }
@@ -97,7 +98,8 @@ TEST_P(Contract, BoxesAreFiniteAndHoldTheirCurve) {
         if (g.is_triangles()) continue;
         // The centre of the leaf's joints: on the surface's centre line for every primitive.
         for (const uint32_t end : {leaf.piece(), leaf.piece() + 1}) {
-            const glm::dvec4 point = point_at(to_double(curves.curves[leaf.curve]), double(end) / leaf.pieces());
+            const glm::dvec4 point =
+                point_at(to_double(curves.curves[leaf.curve]), double(end) / leaf.pieces());
             const double slack = 1e-6;
             for (int axis = 0; axis < 3; ++axis) {
                 EXPECT_LE(boxes[i].low[axis], point[axis] - point.w + slack) << "leaf " << i;

@@ -1,7 +1,6 @@
 // The SPIR-V and the C++ float version come from one text: their hits agree, primitive by primitive.
-#include "gpu_fixture.h"
-
 #include "../conformance/conformance_scene.h"
+#include "gpu_fixture.h"
 #include "trace/gpu_scene.h"
 
 #include <cmath>
@@ -50,8 +49,9 @@ TEST_P(GpuEqualsCpu, OnEveryRay) {
         same_bits += cpu.t == gpu.t ? 1 : 0;
         const float ulp = cpu.is_hit() ? std::nextafter(cpu.t, 1e30f) - cpu.t : 0;
         // At a joint both neighbours may report the same point.
-        const bool same_curve = cpu.curve == gpu.curve || (cpu.is_hit() && gpu.is_hit() &&
-                                                           std::abs(double(cpu.curve) + cpu.u - gpu.curve - gpu.u) < 1e-3);
+        const bool same_curve =
+            cpu.curve == gpu.curve ||
+            (cpu.is_hit() && gpu.is_hit() && std::abs(double(cpu.curve) + cpu.u - gpu.curve - gpu.u) < 1e-3);
         const bool same = same_curve && (!cpu.is_hit() || std::abs(cpu.t - gpu.t) <= ulps * ulp);
         different += same ? 0 : 1;
         if (same && cpu.is_hit() && glm::dot(normal, result.hits.normals[i]) < 0.999f) ++normal_different;
@@ -90,7 +90,8 @@ std::vector<std::string> variants() {
         all.push_back(primitive.name);
         for (const ParameterInfo& info : primitive.parameters)
             for (const std::string& value : info.choices)
-                if (value != info.default_value) all.push_back(primitive.name + ":" + info.name + "=" + value);
+                if (value != info.default_value)
+                    all.push_back(primitive.name + ":" + info.name + "=" + value);
     }
     return all;
 }

@@ -1,8 +1,8 @@
 // Tracing on the device: what comes back for scenes whose hits are known.
-#include "gpu_fixture.h"
+#include "trace/gpu_scene.h"
 
 #include "base/random.h"
-#include "trace/gpu_scene.h"
+#include "gpu_fixture.h"
 
 #include <cmath>
 
@@ -68,7 +68,8 @@ TEST_F(GpuSceneTest, TheOrderOfLeavesDoesNotMatter) {
 
 TEST_F(GpuSceneTest, SeveralStructuresActAsOne) {
     for (const auto order : {SceneOptions::Order::as_built, SceneOptions::Order::median})
-        expect_hits_every_strand(trace(parallel_strands(33), rays_down(33), {.order = order, .max_leaves = 10}), 33);
+        expect_hits_every_strand(
+            trace(parallel_strands(33), rays_down(33), {.order = order, .max_leaves = 10}), 33);
 }
 
 TEST_F(GpuSceneTest, MissesAreInfinite) {
@@ -85,9 +86,9 @@ TEST_F(GpuSceneTest, MissesAreInfinite) {
 TEST_F(GpuSceneTest, InvalidRaysAreMisses) {
     const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
     Rays rays;
-    rays.rays = {{{nan, 0, 5}, 0, {0, 0, -1}, 1e30f},       {{1.2f, 0, 5}, 0, {0, infinity, -1}, 1e30f},
-                 {{1.2f, 0, 5}, 0, {0, 0, 0}, 1e30f},       {{1.2f, 0, 5}, -1, {0, 0, -1}, 1e30f},
-                 {{1.2f, 0, 5}, 3, {0, 0, -1}, 2},          {{1.2f, 0, 5}, 0, {0, 0, -1}, nan},
+    rays.rays = {{{nan, 0, 5}, 0, {0, 0, -1}, 1e30f},    {{1.2f, 0, 5}, 0, {0, infinity, -1}, 1e30f},
+                 {{1.2f, 0, 5}, 0, {0, 0, 0}, 1e30f},    {{1.2f, 0, 5}, -1, {0, 0, -1}, 1e30f},
+                 {{1.2f, 0, 5}, 3, {0, 0, -1}, 2},       {{1.2f, 0, 5}, 0, {0, 0, -1}, nan},
                  {{1.2f, 0, 5}, 0, {0, 0, -1}, infinity}};  // the last one is valid
     const TraceResult result = trace(parallel_strands(1), rays);
     for (size_t i = 0; i + 1 < rays.rays.size(); ++i) EXPECT_FALSE(result.hits.hits[i].is_hit()) << i;

@@ -14,7 +14,8 @@ TEST(BuildInfo, NamesTheCommitOrSaysUnknown) {
         EXPECT_FALSE(build_info().modified);
     } else {
         EXPECT_GE(commit.size(), 40u);
-        EXPECT_TRUE(std::all_of(commit.begin(), commit.end(), [](unsigned char c) { return std::isxdigit(c); }));
+        EXPECT_TRUE(
+            std::all_of(commit.begin(), commit.end(), [](unsigned char c) { return std::isxdigit(c); }));
     }
 }
 

@@ -15,9 +15,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-PrimitiveChoice choice(const std::string& options) {
-    return parse_primitive("dots" + options);
-}
+PrimitiveChoice choice(const std::string& options) { return parse_primitive("dots" + options); }
 
 Geometry built(const Curves& curves, const std::string& options = "") {
     const PrimitiveChoice dots = choice(options);

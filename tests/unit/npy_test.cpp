@@ -20,9 +20,7 @@ ByteSource source_of(const std::string& bytes) {
     return ByteSource::from_memory("a.npy", samples::as_bytes(bytes));
 }
 
-std::string floats(size_t n) {
-    return std::string(n * 4, '\0');
-}
+std::string floats(size_t n) { return std::string(n * 4, '\0'); }
 
 std::vector<float> numbers_in(const std::string& bytes) {
     return read_npy<float>(source_of(bytes), number_item);

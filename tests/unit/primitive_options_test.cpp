@@ -30,7 +30,8 @@ TEST(PrimitiveOptions, SuggestsTheNearestName) {
 }
 
 TEST(PrimitiveOptions, NamesValueAndRange) {
-    EXPECT_NE(message_of("lss:segments=0").find("segments=0 is not a whole number from 1 to 4095"), std::string::npos);
+    EXPECT_NE(message_of("lss:segments=0").find("segments=0 is not a whole number from 1 to 4095"),
+              std::string::npos);
     EXPECT_NE(message_of("lss:segments=2.5").find("2.5"), std::string::npos);
     EXPECT_NE(message_of("lss:segments=nan").find("nan"), std::string::npos);
     EXPECT_NE(message_of("lss:segments").find("key=value"), std::string::npos);

@@ -16,9 +16,7 @@ namespace {
 
 using std::filesystem::path;
 
-path source_folder() {
-    return path(__FILE__).parent_path().parent_path().parent_path();
-}
+path source_folder() { return path(__FILE__).parent_path().parent_path().parent_path(); }
 
 /// A real model, or "" when there is none here.
 std::string shared_model(const std::string& name) {

@@ -56,24 +56,14 @@ Points degenerate_points(const RayFamily& family, Random& random) {
     Points p = smooth_points(family, random);
     const glm::dvec3 chord = p[3] - p[0];
     switch (random.below(6)) {
-        case 0:
-            p[1] = p[0];
-            break;
-        case 1:
-            p[2] = p[3];
-            break;
-        case 2:
-            p[1] = p[0], p[2] = p[3];
-            break;
-        case 3:
-            p[2] = p[1];
-            break;
+        case 0: p[1] = p[0]; break;
+        case 1: p[2] = p[3]; break;
+        case 2: p[1] = p[0], p[2] = p[3]; break;
+        case 3: p[2] = p[1]; break;
         case 4:
             p[1] = p[0] + chord * random.range(-0.5, 1.5), p[2] = p[0] + chord * random.range(-0.5, 1.5);
             break;
-        default:
-            p[3] = p[0];
-            break;
+        default: p[3] = p[0]; break;
     }
     return p;
 }
