@@ -81,7 +81,8 @@ SecondOpinion second_opinion(const Curves& curves, const MeasuredRays& rays, con
     for (size_t i = 0; i < rays.sample_rays.size(); ++i) {
         const ReferenceHit& hit = reference.hits[i];
         // Its definition ends where the ray starts inside, or where strand ends are closed otherwise.
-        if (!reference.decisive[i] || hit.starts_inside || (hit.on_cap && !definition.same_ends)) continue;
+        if (!reference.decisive_place[i] || hit.starts_inside || (hit.on_cap && !definition.same_ends))
+            continue;
         ++opinion.rays;
         const bool our_right = fine(ours.of(i)), their_right = fine(theirs.of(i));
         if ((our_right && their_right) || fine(between.of(i)))

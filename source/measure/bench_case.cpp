@@ -76,6 +76,7 @@ Comparison compare_with(const Scene& scene, const Curves& curves, const Measured
                     .normals = sample_hits.normals,
                     .reference = reference.hits,
                     .decisive = reference.decisive,
+                    .decisive_place = reference.decisive_place,
                     .margin = DecisiveMargin{}.radius,
                     .curves = &curves,
                     .world_from_object = transforms,

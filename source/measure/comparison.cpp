@@ -10,7 +10,8 @@
 namespace strandlab {
 namespace {
 
-enum class Group : uint8_t { decisive, undecided, on_cap, inside };
+/// decisive_strand: hit or miss and the strand are decisive, the place is not.
+enum class Group : uint8_t { decisive, decisive_strand, undecided, on_cap, inside };
 
 struct Judged {
     RayError error;
@@ -21,7 +22,9 @@ Group group_of(const ComparisonInput& input, size_t ray) {
     const ReferenceHit& reference = input.reference[ray];
     if (reference.starts_inside) return Group::inside;
     if (reference.is_hit() && reference.on_cap) return Group::on_cap;
-    return input.decisive.empty() || input.decisive[ray] != 0 ? Group::decisive : Group::undecided;
+    if (!input.decisive.empty() && input.decisive[ray] == 0) return Group::undecided;
+    const bool has_place = input.decisive_place.empty() || input.decisive_place[ray] != 0;
+    return has_place ? Group::decisive : Group::decisive_strand;
 }
 
 /// The groups that a tally is made of.
@@ -30,6 +33,10 @@ struct Selection {
     Group first, last;
 
     bool holds(const Judged& ray) const { return ray.group >= first && ray.group <= last; }
+    /// Whether the tally judges where a ray hits.
+    bool has_place(const Judged& ray) const {
+        return last != Group::decisive_strand || ray.group != Group::decisive_strand;
+    }
 };
 
 void add(Count& count, bool happened, size_t ray) {
@@ -43,7 +50,9 @@ void count_outcomes(const ComparisonInput& input, std::span<const Judged> judged
     Tally& tally = *selection.tally;
     for (size_t i = 0; i < judged.size(); ++i) {
         if (!selection.holds(judged[i])) continue;
-        const RayError& error = judged[i].error;
+        RayError error = judged[i].error;
+        const bool has_place = selection.has_place(judged[i]);
+        if (!has_place && error.outcome == Outcome::wrong_place) error.outcome = Outcome::match;
         ++tally.rays;
         tally.agreed_misses += error.outcome == Outcome::agreed_miss;
         tally.matches += error.outcome == Outcome::match;
@@ -51,7 +60,7 @@ void count_outcomes(const ComparisonInput& input, std::span<const Judged> judged
         if (input.reference[i].is_hit()) {
             add(tally.false_miss, error.outcome == Outcome::false_miss, i);
             add(tally.wrong_strand, error.outcome == Outcome::wrong_strand, i);
-            add(tally.wrong_place, error.outcome == Outcome::wrong_place, i);
+            if (has_place) add(tally.wrong_place, error.outcome == Outcome::wrong_place, i);
         } else {
             add(tally.false_hit, error.outcome == Outcome::false_hit, i);
         }
@@ -89,7 +98,7 @@ void measure_group(std::span<const Judged> judged, const Selection& selection, s
     float largest = -1;
     for (size_t i = 0; i < judged.size(); ++i) {
         const float value = judged[i].error.measures[measure];
-        if (std::isnan(value) || !selection.holds(judged[i])) continue;
+        if (std::isnan(value) || !selection.holds(judged[i]) || !selection.has_place(judged[i])) continue;
         values.push_back(value);
         if (value <= largest) continue;
         largest = value;
@@ -110,7 +119,7 @@ Comparison compare(const ComparisonInput& input) {
     Comparison result;
     result.hit_or_miss_only = input.hit_or_miss_only;
     result.margin = input.margin;
-    const std::array selections{Selection{&result.decisive, Group::decisive, Group::decisive},
+    const std::array selections{Selection{&result.decisive, Group::decisive, Group::decisive_strand},
                                 Selection{&result.all, Group::decisive, Group::undecided},
                                 Selection{&result.on_cap, Group::on_cap, Group::on_cap},
                                 Selection{&result.inside, Group::inside, Group::inside}};

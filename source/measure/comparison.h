@@ -33,7 +33,9 @@ struct Percentiles {
 
 /// One group of rays. Every ray is counted in exactly one of: agreed misses, matches, nan, false_hit,
 /// false_miss, wrong_strand, wrong_place. Only matches have measures; a measure that was not asked for
-/// or is undefined for all rays has count 0.
+/// or is undefined for all rays has count 0. In the group of the decisive rays, those whose place is
+/// undecided are judged by hit or miss and by strand alone: they match with the right strand, and have no
+/// measures.
 struct Tally {
     uint64_t rays = 0;
     uint64_t agreed_misses = 0, matches = 0;
@@ -41,7 +43,7 @@ struct Tally {
     Count false_hit;     // per reference miss
     Count false_miss;    // per reference hit
     Count wrong_strand;  // per reference hit
-    Count wrong_place;   // per reference hit
+    Count wrong_place;   // per reference hit (whose place is decisive, among decisive rays)
     Count bad_normal;    // matches whose normal is not finite or zero, per match with normals
 
     std::array<Percentiles, measure_count> measures;

@@ -57,8 +57,11 @@ struct ComparisonInput {
     std::span<const glm::vec3> normals = {};  // empty: the trace returned none
     std::span<const ReferenceHit> reference;
     std::span<const uint8_t> decisive = {};  // 0: undecided; empty: all rays are decisive
-    double margin = 0;                       // the d that decisive was found with
-    const Curves* curves = nullptr;          // strands for identity and u; centre lines for h and tangents
+    /// 0: the place of the hit is undecided, though hit or miss and the strand may be decisive; empty: the
+    /// place of every decisive ray is.
+    std::span<const uint8_t> decisive_place = {};
+    double margin = 0;               // the d that decisive was found with
+    const Curves* curves = nullptr;  // strands for identity and u; centre lines for h and tangents
 
     /// Transforms of the instances that hits name; empty: one instance, not moved. u, h and
     /// tangents are compared in object space, where the curves are.

@@ -82,12 +82,18 @@ Real curvature(const Cubic<Real>& c, Real u) {
     return 6 * ((1 - u) * (c[2] - 2 * c[1] + c[0]) + u * (c[3] - 2 * c[2] + c[1]));
 }
 
+/// a + u (b - a): b itself at u = 1, and where both are equal just that, so that coefficients which coincide
+/// (a zero end tangent, a constant coordinate) still do after any subdivision.
+template <class Real>
+Real between(Real a, Real b, Real u) {
+    return u == 1 ? b : a + u * (b - a);
+}
+
 /// Both halves of a cubic (de Casteljau).
 template <class Real>
 void split(const Cubic<Real>& c, Real u, Cubic<Real>& left, Cubic<Real>& right) {
-    const Real v = 1 - u;
-    const Real a = v * c[0] + u * c[1], b = v * c[1] + u * c[2], d = v * c[2] + u * c[3];
-    const Real ab = v * a + u * b, bd = v * b + u * d, m = v * ab + u * bd;
+    const Real a = between(c[0], c[1], u), b = between(c[1], c[2], u), d = between(c[2], c[3], u);
+    const Real ab = between(a, b, u), bd = between(b, d, u), m = between(ab, bd, u);
     left = {c[0], a, ab, m};
     right = {m, bd, d, c[3]};
 }
@@ -97,10 +103,11 @@ template <class Real>
 Cubic<Real> restricted(const Cubic<Real>& c, Real a, Real b) {
     if (a == 0 && b == 1) return c;
     const auto blossom = [&](Real r, Real s, Real t) {
-        const Real p = c[0] + r * (c[1] - c[0]), q = c[1] + r * (c[2] - c[1]), w = c[2] + r * (c[3] - c[2]);
-        const Real pq = p + s * (q - p), qw = q + s * (w - q);
-        return pq + t * (qw - pq);
+        const Real p = between(c[0], c[1], r), q = between(c[1], c[2], r), w = between(c[2], c[3], r);
+        return between(between(p, q, s), between(q, w, s), t);
     };
+    // An end that stays (0 or 1) comes first: it only picks coefficients.
+    if (b == 1) return {blossom(a, a, a), blossom(b, a, a), blossom(b, b, a), c[3]};
     return {blossom(a, a, a), blossom(a, a, b), blossom(a, b, b), blossom(b, b, b)};
 }
 

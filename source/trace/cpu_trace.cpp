@@ -20,8 +20,9 @@ CpuTracer::CpuTracer(const Geometry& geometry, const Primitive& primitive, Preci
     bvh_ = Bvh(boxes);
 }
 
-template <class Real, class Intersect>
-CpuTracer::Found<Real> CpuTracer::first(Intersect intersect, const Ray& ray, TraceMode mode) const {
+template <class Real, class Intersect, class Finish>
+CpuTracer::Found<Real> CpuTracer::first(Intersect intersect, Finish finish, const Ray& ray,
+                                        TraceMode mode) const {
     Found<Real> best;
     LeafHit<Real> hit;
     const BvhRay traversal(ray.origin, ray.direction, ray.tmin, ray.tmax);
@@ -36,6 +37,7 @@ CpuTracer::Found<Real> CpuTracer::first(Intersect intersect, const Ray& ray, Tra
         tmax = double(hit.t);
         return mode == TraceMode::any;
     });
+    if (finish && best.leaf != no_curve) finish(geometry_, best.leaf, ray, best.hit);
     return best;
 }
 
@@ -48,8 +50,10 @@ Hit CpuTracer::trace(const Ray& ray, TraceMode mode, glm::vec3* normal) const {
         return {static_cast<float>(found.hit.t), static_cast<float>(found.hit.u),
                 geometry_.leaves[found.leaf].curve, 0};
     };
-    return precision_ == Precision::single ? result(first<float>(primitive_.cpu.single, ray, mode))
-                                           : result(first<double>(primitive_.cpu.precise, ray, mode));
+    const CpuIntersectors& cpu = primitive_.cpu;
+    return precision_ == Precision::single
+               ? result(first<float>(cpu.single, cpu.finish_single, ray, mode))
+               : result(first<double>(cpu.precise, cpu.finish_precise, ray, mode));
 }
 
 ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
@@ -62,10 +66,11 @@ ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
         result.normal = glm::dvec3(found.hit.normal);
         result.curve = geometry_.leaves[found.leaf].curve;
     };
+    const CpuIntersectors& cpu = primitive_.cpu;
     if (precision_ == Precision::single)
-        fill(first<float>(primitive_.cpu.single, ray, TraceMode::closest));
+        fill(first<float>(cpu.single, cpu.finish_single, ray, TraceMode::closest));
     else
-        fill(first<double>(primitive_.cpu.precise, ray, TraceMode::closest));
+        fill(first<double>(cpu.precise, cpu.finish_precise, ray, TraceMode::closest));
     return result;
 }
 

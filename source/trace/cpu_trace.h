@@ -18,7 +18,8 @@ enum class Precision { single, precise };
 /// closest: the nearest hit; any: the first hit that traversal comes upon (shadow rays).
 enum class TraceMode { closest, any };
 
-/// One geometry with its hierarchy, traced by a primitive's C++ kernel. The boxes are padded as a GPU
+/// One geometry with its hierarchy, traced by a primitive's C++ kernel, which also finishes the hit that
+/// traversal ends with, as the closest-hit shader does. The boxes are padded as a GPU
 /// builder pads them, for ray origins up to `extent` from the world's origin.
 class CpuTracer {
   public:
@@ -39,8 +40,8 @@ class CpuTracer {
         LeafHit<Real> hit;
         uint32_t leaf = no_curve;  // no_curve: a miss
     };
-    template <class Real, class Intersect>
-    Found<Real> first(Intersect intersect, const Ray& ray, TraceMode mode) const;
+    template <class Real, class Intersect, class Finish>
+    Found<Real> first(Intersect intersect, Finish finish, const Ray& ray, TraceMode mode) const;
 
     const Geometry& geometry_;
     const Primitive& primitive_;

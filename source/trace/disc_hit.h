@@ -97,11 +97,10 @@ template <class Real>
 void offer_disc_point(const Swept<Real>& s, Real u, Real offset, Real z_min, SweptResult<Real>& result) {
     const SweptPoint<Real> p(s, u);
     if (!(p.radius > s.least_radius())) return;
-    if (!p.regular) {
-        // H vanishes with C' whatever the ray; the limit tangent tells whether the point is real.
-        const bool has_plane = glm::length(p.tangent) > 0;
-        if (!has_plane || !(std::abs(p.off_plane(offset)) <= Real(1e-6) * p.radius)) return;
-    }
+    // H vanishes with C' whatever the ray, and near such a root its sign is rounding noise; the tangent, at
+    // the root its limit, tells whether the point is real.
+    const bool has_plane = glm::length(p.tangent) > 0;
+    if (!has_plane || !(std::abs(p.off_plane(offset)) <= Real(1e-6) * p.radius)) return;
     const Real slant = p.regular ? slope(s.r, u) / p.speed * p.tangent.z : Real(0);
     if (!(offset / p.radius - slant < 0)) return;
     const Real z = p.centre.z + offset;
@@ -122,6 +121,19 @@ void offer_round_ends(const Swept<Real>& s, const PieceEnds& ends, Real z_min, S
     }
 }
 
+/// Where D vanishes and the ray runs along the curve, both factors of H = z'^2 D - w^2 vanish together and
+/// H does not tell: the ray meets the disc at its rim, in the point s = w / z' from the foot (D = s^2).
+/// Exactly parallel to a straight tapering tube, that is the only root.
+template <class Real>
+void offer_rim(const Swept<Real>& s, Real u, Real z_min, SweptResult<Real>& result) {
+    const SweptPoint<Real> p(s, u);
+    const bool is_root = u > 0 && u < 1;  // of D; the ends of the curve may lie anywhere within the tube
+    if (!is_root && !(s.half_chord(u) <= Real(1e-7) * p.radius)) return;
+    // Beyond this, w^2 is not lost in the rounding of D, and isolation finds the root.
+    const Real offset = p.plane_offset();
+    if (std::abs(offset) <= Real(1e-7) * p.radius) offer_disc_point(s, u, offset, z_min, result);
+}
+
 /// Swept discs, open unless caps says otherwise.
 template <class Real>
 SweptResult<Real> hit_discs(const Swept<Real>& s, const PieceEnds& ends, Real z_min) {
@@ -129,15 +141,25 @@ SweptResult<Real> hit_discs(const Swept<Real>& s, const PieceEnds& ends, Real z_
     for (const Interval<Real>& component : find_components(s)) {
         const SurfaceRoots<Real> isolated(s, component, 0);
         for (const Real u : isolated.roots()) {
+            // Close to the rim sqrt(D) is rounding noise, and the plane of the disc is not, unless the ray
+            // lies in it.
+            const SweptPoint<Real> p(s, u);
+            const Real rim = Real(1e-3) * p.radius;
+            if (std::abs(p.tangent.z) > Real(0.5) && s.half_chord(u) <= rim) {
+                if (std::abs(p.plane_offset()) <= 2 * rim)
+                    offer_disc_point(s, u, p.plane_offset(), z_min, result);
+                continue;
+            }
             // H is the product of the residuals of entry and exit; where both vanish the ray crosses the
             // curve at a right angle and both points count.
             const Real chord = s.half_chord(u), h = s.drift(u, 0), dz = slope(s.z, u);
             const Real entry = std::abs(h + dz * chord), exit = std::abs(h - dz * chord);
-            const Real both =
-                Real(1e-9) * std::max(SweptPoint<Real>(s, u).speed * evaluate(s.r, u), std::abs(h));
+            const Real both = Real(1e-9) * std::max(p.speed * p.radius, std::abs(h));
             if (entry <= exit || entry <= both) offer_disc_point(s, u, -chord, z_min, result);
             if (exit <= entry || exit <= both) offer_disc_point(s, u, chord, z_min, result);
         }
+        offer_rim(s, component.a, z_min, result);
+        if (component.b > component.a) offer_rim(s, component.b, z_min, result);
     }
     if (ends.caps == Caps::round) offer_round_ends(s, ends, z_min, result);
     if (ends.caps == Caps::flat) offer_flat_caps(s, ends, z_min, result);

@@ -14,7 +14,9 @@ constexpr double place_margin = 0.3;
 
 bool same_strand(const Curves& curves, const ReferenceHit& a, const ReferenceHit& b) {
     if (a.is_hit() != b.is_hit()) return false;
-    return !a.is_hit() || a.curve == b.curve || curves.strand_of(a.curve) == curves.strand_of(b.curve);
+    if (!a.is_hit()) return true;
+    return a.instance == b.instance &&
+           (a.curve == b.curve || curves.strand_of(a.curve) == curves.strand_of(b.curve));
 }
 
 bool same_place(const Ray& ray, const ReferenceHit& a, const ReferenceHit& b) {
@@ -23,6 +25,14 @@ bool same_place(const Ray& ray, const ReferenceHit& a, const ReferenceHit& b) {
 }
 
 }  // namespace
+
+Decided decided(const Ray& ray, const Curves& curves, const ReferenceHit& hit, const ReferenceHit& larger,
+                const ReferenceHit& smaller) {
+    Decided result;
+    result.strand = same_strand(curves, hit, larger) && same_strand(curves, hit, smaller);
+    result.place = result.strand && same_place(ray, hit, larger) && same_place(ray, hit, smaller);
+    return result;
+}
 
 Reference make_reference(const Surface& surface, const Curves& curves, std::span<const Ray> rays,
                          const DecisiveMargin& margin) {
@@ -35,11 +45,11 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
     reference.decisive_place.resize(rays.size());
     parallel_for(rays.size(), [&](size_t i) {
         const ReferenceHit hit = oracle.trace(rays[i], OracleOptions{});
-        const ReferenceHit outer = oracle.trace(rays[i], larger), inner = oracle.trace(rays[i], smaller);
+        const Decided is_decided =
+            decided(rays[i], curves, hit, oracle.trace(rays[i], larger), oracle.trace(rays[i], smaller));
         reference.hits[i] = hit;
-        reference.decisive[i] = same_strand(curves, hit, outer) && same_strand(curves, hit, inner);
-        reference.decisive_place[i] =
-            reference.decisive[i] && same_place(rays[i], hit, outer) && same_place(rays[i], hit, inner);
+        reference.decisive[i] = is_decided.strand;
+        reference.decisive_place[i] = is_decided.place;
     });
     return reference;
 }

@@ -27,6 +27,14 @@ struct Reference {
     std::vector<uint8_t> decisive_place;
 };
 
+/// What the two variations of the surface say about the hit of a ray.
+struct Decided {
+    bool strand = false;  // hit or miss, and the strand of the same instance
+    bool place = false;   // that, and the hit stays within 0.3 radii
+};
+Decided decided(const Ray& ray, const Curves& curves, const ReferenceHit& hit, const ReferenceHit& larger,
+                const ReferenceHit& smaller);
+
 /// Traces the rays against the surface and its two variations, in parallel. curves gives the strands that
 /// the surface's curve numbers belong to.
 Reference make_reference(const Surface& surface, const Curves& curves, std::span<const Ray> rays,

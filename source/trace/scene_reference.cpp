@@ -15,7 +15,7 @@ namespace strandlab {
 namespace {
 
 /// Changes whenever the oracle's answers may.
-constexpr int oracle_version = 1;
+constexpr int oracle_version = 2;
 
 std::string cache_key(const Scene& scene, std::span<const Surface> surfaces, std::span<const Ray> rays) {
     Hash sum;
@@ -31,19 +31,23 @@ std::string cache_key(const Scene& scene, std::span<const Surface> surfaces, std
 static_assert(std::is_trivially_copyable_v<ReferenceHit>);
 
 std::vector<std::byte> packed(const Reference& reference) {
-    const size_t hit_bytes = reference.hits.size() * sizeof(ReferenceHit);
-    std::vector<std::byte> bytes(hit_bytes + reference.decisive.size());
+    const size_t count = reference.hits.size(), hit_bytes = count * sizeof(ReferenceHit);
+    std::vector<std::byte> bytes(hit_bytes + 2 * count);
     if (bytes.empty()) return bytes;
     std::memcpy(bytes.data(), reference.hits.data(), hit_bytes);
-    std::memcpy(bytes.data() + hit_bytes, reference.decisive.data(), reference.decisive.size());
+    std::memcpy(bytes.data() + hit_bytes, reference.decisive.data(), count);
+    std::memcpy(bytes.data() + hit_bytes + count, reference.decisive_place.data(), count);
     return bytes;
 }
 
 std::optional<Reference> unpacked(const std::vector<std::byte>& bytes, size_t count) {
-    if (count == 0 || bytes.size() != count * (sizeof(ReferenceHit) + 1)) return std::nullopt;
-    Reference reference{std::vector<ReferenceHit>(count), std::vector<uint8_t>(count)};
-    std::memcpy(reference.hits.data(), bytes.data(), count * sizeof(ReferenceHit));
-    std::memcpy(reference.decisive.data(), bytes.data() + count * sizeof(ReferenceHit), count);
+    const size_t hit_bytes = count * sizeof(ReferenceHit);
+    if (count == 0 || bytes.size() != hit_bytes + 2 * count) return std::nullopt;
+    Reference reference{std::vector<ReferenceHit>(count), std::vector<uint8_t>(count),
+                        std::vector<uint8_t>(count)};
+    std::memcpy(reference.hits.data(), bytes.data(), hit_bytes);
+    std::memcpy(reference.decisive.data(), bytes.data() + hit_bytes, count);
+    std::memcpy(reference.decisive_place.data(), bytes.data() + hit_bytes + count, count);
     return reference;
 }
 
@@ -62,13 +66,11 @@ Reference trace_instances(const Scene& scene, std::span<const Surface> surfaces,
     const auto larger = trace({1 + margin.radius, margin.ulps, margin.ends});
     const auto smaller = trace({1 - margin.radius, margin.ulps, -margin.ends});
     reference.decisive.resize(rays.size());
-    const auto same = [&](const ReferenceHit& a, const ReferenceHit& b) {
-        if (a.is_hit() != b.is_hit()) return false;
-        return !a.is_hit() ||
-               (a.instance == b.instance && curves.strand_of(a.curve) == curves.strand_of(b.curve));
-    };
+    reference.decisive_place.resize(rays.size());
     parallel_for(rays.size(), [&](size_t i) {
-        reference.decisive[i] = same(reference.hits[i], larger[i]) && same(reference.hits[i], smaller[i]);
+        const Decided is_decided = decided(rays[i], curves, reference.hits[i], larger[i], smaller[i]);
+        reference.decisive[i] = is_decided.strand;
+        reference.decisive_place[i] = is_decided.place;
     });
     return reference;
 }

@@ -71,7 +71,9 @@ struct SweptPoint {
     }
     /// Distance of the ray point at depth centre.z + s from the plane through the centre across the curve.
     Real off_plane(Real s) const { return s * tangent.z - centre.x * tangent.x - centre.y * tangent.y; }
-    /// From the centre to that ray point.
+    /// The s for which that distance is 0: infinite or NaN where the ray runs along the plane.
+    Real plane_offset() const { return (centre.x * tangent.x + centre.y * tangent.y) / tangent.z; }
+    /// From the centre to the ray point at depth centre.z + s.
     Vec3 arm(Real s) const { return Vec3(-centre.x, -centre.y, s); }
 };
 
@@ -119,6 +121,11 @@ SweptResult<Real> hit_spheres(const Swept<Real>& s, const PieceEnds& ends, Real 
         }
         // Entered exactly at a tip of radius zero, which is no surface; no other point is the entry.
         if (!(evaluate(s.r, at) > least_radius)) continue;
+        // A root of the exit that rounding has put just beside an end is that end, where the entry is not
+        // stationary but cut off.
+        constexpr Real at_end = 64 * std::numeric_limits<Real>::epsilon();
+        if (at < at_end) at = 0;
+        if (at > 1 - at_end) at = 1;
         const bool on_cap = (at == 0 && ends.begins_strand) || (at == 1 && ends.ends_strand);
         if (on_cap && ends.caps != Caps::round) continue;
         const SweptPoint<Real> p(s, at);

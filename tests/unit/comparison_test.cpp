@@ -202,6 +202,43 @@ TEST(Comparison, BadNormalsAreCountedNotMeasured) {
     EXPECT_NEAR(tally.of(Measure::normal).max, 45, 1e-5);
 }
 
+TEST(Comparison, UndecidedPlacesAreJudgedByStrandAlone) {
+    Case c;
+    std::vector<uint8_t> decisive_place;
+    const auto add = [&](uint8_t place) {
+        c.add();
+        decisive_place.push_back(place);
+    };
+    add(1);
+    add(1);
+    c.hits.back().t += 1;  // wrong place
+    add(0);
+    c.hits.back().t += 1;  // elsewhere on the right strand
+    add(0);
+    c.hits.back() = Hit();  // a miss is wrong wherever the hit is
+    add(0);
+    c.hits.back().curve = 2;
+    add(0);
+    ComparisonInput in = c.input();
+    in.decisive_place = decisive_place;
+    const Comparison result = compare(in);
+    const Tally& t = result.decisive;
+    EXPECT_EQ(t.rays, 6u);
+    EXPECT_EQ(t.wrong_place.count, 1u);
+    EXPECT_EQ(t.wrong_place.trials, 2u);
+    EXPECT_EQ(t.wrong_place.first_ray, 1u);
+    EXPECT_EQ(t.false_miss.count, 1u);
+    EXPECT_EQ(t.false_miss.trials, 6u);
+    EXPECT_EQ(t.wrong_strand.count, 1u);
+    EXPECT_EQ(t.matches, 3u);
+    EXPECT_EQ(t.of(Measure::distance).count, 1u);
+    // What happened is seen in the group of all rays.
+    EXPECT_EQ(result.all.rays, 6u);
+    EXPECT_EQ(result.all.wrong_place.count, 2u);
+    EXPECT_EQ(result.all.wrong_place.trials, 6u);
+    EXPECT_EQ(result.undecided(), 0u);
+}
+
 TEST(Comparison, GroupsHoldEveryRayOnce) {
     Case c;
     c.add();

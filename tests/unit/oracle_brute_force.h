@@ -67,6 +67,12 @@ class Search {
             for (const int side : {-1, 1}) {
                 const auto f = [&](Real u) { return glm::dot(arm(u, side), slope(u)); };
                 const int n = 600;
+                // Along a straight tapering tube the plane of every disc is met in its centre's foot: there
+                // is no change of sign, only the point where the ray crosses the rim.
+                for (const Real end : {a, b})
+                    if (chord(end) <= 1e-8L * at(end).w &&
+                        std::abs(f(end)) <= 1e-8L * glm::length(slope(end)) * at(end).w)
+                        consider_disc(end, side, best);
                 Real u0 = a, f0 = f(a);
                 for (int i = 1; i <= n; ++i) {
                     const Real u1 = a + (b - a) * i / n, f1 = f(u1);
@@ -109,7 +115,8 @@ class Search {
         if (!(glm::length(tangent) > 1e-6L) || !(at(u).w > 1e-12L)) return;
         const Vec3 normal = arm(u, side) / at(u).w - radius_slope(u) / glm::dot(tangent, tangent) * tangent;
         const Real t = foot(u) + Real(side) * chord(u);
-        if (glm::dot(normal, d_) < 0 && t >= tmin_ && t < best.t) best = {t, u, true};
+        // Not by rounding alone: a ray that only touches the rim of an open end has no front face there.
+        if (glm::dot(normal, d_) < -1e-8L * glm::length(d_) && t >= tmin_ && t < best.t) best = {t, u, true};
     }
 
     template <class Function>
