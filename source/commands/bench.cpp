@@ -24,7 +24,7 @@ struct Options {
     PrimitiveArguments primitives;
     RayArguments rays;
     DeviceArguments device;
-    uint32_t repeat = 3;
+    uint32_t repeat = 5;
     std::string json, csv, images, leaf_order = "auto";
     bool no_embree = false, no_compaction = false, no_normals = false;
 };
@@ -47,7 +47,7 @@ class Bench {
           writer_(options.json, options.csv),
           context_(current_context()) {
         const bool slow = device_.info().kind == "cpu";
-        size_ = options.rays.resolution.empty() ? (slow ? Resolution{320, 180} : Resolution{1920, 1080})
+        size_ = options.rays.resolution.empty() ? (slow ? Resolution{640, 360} : Resolution{1920, 1080})
                                                 : parse_resolution(options.rays.resolution);
         // An idle GPU needs a third of a second of work before it runs at its full clock.
         // Elsewhere one trace: drivers compile at the first dispatch.

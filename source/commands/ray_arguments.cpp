@@ -24,7 +24,7 @@ std::string set_help() {
 void RayArguments::add_to(CLI::App& app, const std::string& default_names) {
     app.add_option("--rays", names, set_help())->allow_extra_args(false)->default_str(default_names);
     app.add_option("--resolution", resolution,
-                   "WIDTHxHEIGHT (default: 320x180 on a CPU device, 1920x1080 on a GPU)");
+                   "WIDTHxHEIGHT (default: 640x360 on a CPU device, 1920x1080 on a GPU)");
     app.add_option(
         "--camera", camera,
         "eye=x,y,z:target=x,y,z[:up=x,y,z][:fov=degrees] or from=x,y,z[:zoom=factor]: then it fits the hair");
