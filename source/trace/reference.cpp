@@ -1,6 +1,7 @@
 #include "trace/reference.h"
 
 #include "base/parallel.h"
+#include "base/progress.h"
 
 #include <glm/glm.hpp>
 
@@ -33,6 +34,7 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
     reference.hits.resize(rays.size());
     reference.decisive.resize(rays.size());
     reference.decisive_place.resize(rays.size());
+    Progress progress("reference hits", rays.size());
     parallel_for(rays.size(), [&](size_t i) {
         const ReferenceHit hit = oracle.trace(rays[i], OracleOptions{});
         const ReferenceHit outer = oracle.trace(rays[i], larger), inner = oracle.trace(rays[i], smaller);
@@ -40,6 +42,7 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
         reference.decisive[i] = same_strand(curves, hit, outer) && same_strand(curves, hit, inner);
         reference.decisive_place[i] =
             reference.decisive[i] && same_place(rays[i], hit, outer) && same_place(rays[i], hit, inner);
+        progress.tick();
     });
     return reference;
 }
