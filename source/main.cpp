@@ -1,24 +1,32 @@
 // Chooses the command and turns every error into one line and an exit code.
 #include "base/error.h"
-#include "base/log.h"
+#include "base/terminal.h"
+#include "base/text.h"
 #include "commands/command.h"
 
-#include <cstdio>
 #include <exception>
 #include <new>
+
+namespace strandlab {
+namespace {
+
+int fail_with(ExitCode code, const char* message) {
+    write_message("strandlab: " + one_line(message));
+    return static_cast<int>(code);
+}
+
+}  // namespace
+}  // namespace strandlab
 
 int main(int argc, char** argv) {
     using namespace strandlab;
     try {
         return run_command_line(argc, argv);
     } catch (const Error& error) {
-        fmt::print(stderr, "strandlab: {}\n", error.what());
-        return static_cast<int>(error.code);
+        return fail_with(error.code, error.what());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "strandlab: out of memory; try a smaller model or fewer rays\n");
-        return static_cast<int>(ExitCode::device_lost);
+        return fail_with(ExitCode::device_lost, "out of memory; try a smaller model or fewer rays");
     } catch (const std::exception& error) {
-        fmt::print(stderr, "strandlab: {}\n", error.what());
-        return static_cast<int>(ExitCode::bad_input);
+        return fail_with(ExitCode::bad_input, error.what());
     }
 }

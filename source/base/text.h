@@ -21,4 +21,8 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// The whole text as a number; nothing when any character is left over.
 std::optional<double> to_number(std::string_view text);
 
+/// The text with '?' for every control character: one line, and nothing that moves a terminal's cursor,
+/// whatever a file or an option put into it.
+std::string one_line(std::string_view text);
+
 }  // namespace strandlab

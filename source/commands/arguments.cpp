@@ -43,6 +43,7 @@ CurveOptions ModelArguments::curve_options() const {
     options.tip_radius = radius_tip;
     options.unit_scale = unit_scale;
     options.override_radii = radius_option_->count() > 0 || radius_tip_option_->count() > 0;
+    check_options(options);  // before anything is loaded
     return options;
 }
 

@@ -17,9 +17,9 @@ struct ModelArguments {
     std::vector<std::string> models;
     std::string basis = "centripetal";
     float radius = 35e-6f, radius_tip = 10e-6f, unit_scale = 1.0f;
-    bool has_radius = false;  // given on the command line: overrides the file's own
 
     void add_to(CLI::App& app, bool required);
+    /// Throws Error (usage) for values out of range.
     CurveOptions curve_options() const;
 
   private:

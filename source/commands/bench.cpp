@@ -1,12 +1,13 @@
 // strandlab bench: run time against memory and error, one row per case.
 #include "base/error.h"
-#include "base/log.h"
+#include "base/progress.h"
 #include "commands/arguments.h"
 #include "commands/bench_table.h"
 #include "commands/bundled_models.h"
 #include "commands/command.h"
 #include "commands/embree_case.h"
 #include "commands/ray_arguments.h"
+#include "commands/usage_error.h"
 #include "report/images.h"
 #include "report/result_writer.h"
 #include "report/shading.h"
@@ -43,6 +44,8 @@ class Bench {
         : options_(options),
           choices_(options.primitives.choices()),
           caps_(options.primitives.scene_caps()),
+          order_(leaf_order_named(options.leaf_order)),
+          curve_options_(options.models.curve_options()),
           device_({options.device.device, options.device.validation}),
           writer_(options.json, options.csv),
           context_(current_context()) {
@@ -57,25 +60,17 @@ class Bench {
     }
 
     void run(const std::string& path) const {
-        const Scene scene = load_scene(path, options_.models.curve_options());
+        const Scene scene = load_scene(path, curve_options_);
         if (scene.curve_count() == 0) return;
         const Curves curves = all_curves(scene);
         const RaySets rays(scene, curves, options_.rays, size_, caps_);
         CaseInput input{device_, scene, curves, options_.repeat, warm_up_ms_, {}};
-        input.options.order = leaf_order_named(options_.leaf_order);
+        input.options.order = order_;
         input.options.compact = !options_.no_compaction;
         input.options.normals = !options_.no_normals;
         input.options.ray_extent = object_extent(scene, rays.extent());
-        std::vector<std::vector<ResultRow>> rows(rays.sets().size());
-        for (const PrimitiveChoice& choice : choices_) {
-            const PreparedCase prepared = prepare_case(input, choice);
-            for (size_t i = 0; i < rows.size(); ++i)
-                rows[i].push_back(run_one(input, prepared, rays.sets()[i]));
-        }
-        if (!options_.no_embree && embree_available() && scene.is_plain())
-            for (size_t i = 0; i < rows.size(); ++i)
-                rows[i].push_back(embree_row(input, rays.sets()[i], base_row(input, rays.sets()[i])));
-        for (size_t i = 0; i < rows.size(); ++i) fmt::print("\n{}", bench_table(rows[i]));
+        for (const std::vector<ResultRow>& rows : run_cases(input, rays.sets()))
+            fmt::print("\n{}", bench_table(rows));
         std::fflush(stdout);
     }
 
@@ -85,6 +80,26 @@ class Bench {
     }
 
   private:
+    /// The rows of each ray set.
+    std::vector<std::vector<ResultRow>> run_cases(const CaseInput& input,
+                                                  const std::vector<MeasuredRays>& sets) const {
+        const bool with_embree = !options_.no_embree && embree_available() && input.scene.is_plain();
+        Progress progress(input.scene.name, sets.size() * (choices_.size() + (with_embree ? 1 : 0)));
+        std::vector<std::vector<ResultRow>> rows(sets.size());
+        for (const PrimitiveChoice& choice : choices_) {
+            const PreparedCase prepared = prepare_case(input, choice);
+            for (size_t i = 0; i < sets.size(); ++i) {
+                rows[i].push_back(run_one(input, prepared, sets[i]));
+                progress.tick();
+            }
+        }
+        for (size_t i = 0; with_embree && i < sets.size(); ++i) {
+            rows[i].push_back(embree_row(input, sets[i], base_row(input, sets[i])));
+            progress.tick();
+        }
+        return rows;
+    }
+
     std::string device_line() const {
         const DeviceFacts facts = facts_of(device_.info(), device_.has_validation());
         return fmt::format("{}, {}, {} traversal, {} x {}, {} samples, validation layers {}", facts.name,
@@ -138,6 +153,8 @@ class Bench {
     const Options& options_;
     std::vector<PrimitiveChoice> choices_;
     Caps caps_;
+    SceneOptions::Order order_;
+    CurveOptions curve_options_;
     TraceDevice device_;
     ResultWriter writer_;
     Context context_;
@@ -148,6 +165,7 @@ class Bench {
 int run(Options& options) {
     if (options.models.models.empty()) options.models.models = bundled_models();
     if (options.rays.names.empty()) options.rays.names = {"primary", "secondary"};
+    options.rays.check();
     const Bench bench(options);
     for (const std::string& model : options.models.models) bench.run(model);
     bench.finish();
@@ -171,7 +189,7 @@ Command bench_command() {
                 options->device.add_to(app);
                 app.add_option("--repeat", options->repeat, "timed traces of each case")
                     ->capture_default_str()
-                    ->check(CLI::Range(1u, 10000u));
+                    ->check(whole_number(1, 10000));
                 app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
                 app.add_option("--csv", options->csv, "append rows to this file");
                 app.add_option("--images", options->images,

@@ -2,8 +2,8 @@
 #include "base/cache.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "base/text.h"
 #include "commands/command.h"
+#include "commands/usage_error.h"
 
 #include <tbb/global_control.h>
 
@@ -29,24 +29,10 @@ struct GlobalOptions {
 void add_global_options(CLI::App& app, GlobalOptions& options) {
     app.add_option("--threads", options.threads,
                    "processor threads to use (0: all); results do not depend on it")
-        ->default_str("0");
+        ->default_str("0")
+        ->check(whole_number(0, 4096));
     app.add_flag("--quiet", options.quiet, "no progress and no information on standard error");
     app.add_flag("--no-cache", options.no_cache, "neither read nor write $XDG_CACHE_HOME/strandlab");
-}
-
-/// CLI11's own messages name the option; the nearest command is suggested for a mistyped one.
-[[noreturn]] void fail_usage(const CLI::ParseError& error, const std::vector<Command>& commands, int argc,
-                             char** argv) {
-    std::vector<std::string> names;
-    for (const Command& command : commands) names.push_back(command.name);
-    std::string first = argc > 1 ? argv[1] : "";
-    const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
-    if (!is_command && !first.empty() && first[0] != '-') {
-        const auto guess = nearest(first, names);
-        fail(ExitCode::usage, "no command '{}'{}; there are {}", first,
-             guess ? fmt::format(", did you mean '{}'?", *guess) : "", list_of(names, "and"));
-    }
-    fail(ExitCode::usage, "{}; see strandlab {}--help", error.what(), is_command ? first + " " : "");
 }
 
 }  // namespace
@@ -82,7 +68,7 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::Success& success) {
         return app.exit(success);  // help and version
     } catch (const CLI::ParseError& error) {
-        fail_usage(error, commands, argc, argv);
+        fail_usage(app, error);
     }
     set_quiet(global.quiet);
     set_cache_enabled(!global.no_cache);

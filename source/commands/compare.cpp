@@ -3,6 +3,7 @@
 #include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/hit_files.h"
+#include "commands/usage_error.h"
 #include "measure/bench_case.h"
 #include "primitives/curved_pieces.h"
 #include "report/comparison_text.h"
@@ -81,7 +82,8 @@ Command compare_command() {
             app.add_option("--caps", options->caps, "strand ends of that surface: round, open, flat")
                 ->capture_default_str();
             app.add_option("--error-rays", options->error_rays, "compare about this many rays (0: all)")
-                ->capture_default_str();
+                ->capture_default_str()
+                ->check(whole_number(0, 0xFFFFFFFF));
             app.add_flag("--json", options->json, "one JSON object instead of tables");
             return [options] { return run(*options); };
         }};

@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "commands/arguments.h"
 #include "commands/command.h"
+#include "commands/usage_error.h"
 #include "strands/generators.h"
 #include "strands/models.h"
 
@@ -56,7 +57,7 @@ Command convert_command() {
                 app.add_option("--points-per-curve", options->write.points_per_curve,
                                ".hair: points that each curve adds")
                     ->capture_default_str()
-                    ->check(CLI::Range(1u, 64u));
+                    ->check(whole_number(1, 64));
                 app.add_option("--write-strands", options->write.strands_path,
                                ".npy: file for the strands, int32 [S,2]");
                 return [options] { return run(*options); };

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "commands/arguments.h"
 #include "commands/hit_files.h"
+#include "commands/usage_error.h"
 
 #include <algorithm>
 
@@ -28,10 +29,19 @@ void RayArguments::add_to(CLI::App& app, const std::string& default_names) {
     app.add_option(
         "--camera", camera,
         "eye=x,y,z:target=x,y,z[:up=x,y,z][:fov=degrees] or from=x,y,z[:zoom=factor]: then it fits the hair");
-    app.add_option("--seed", seed, "of every ray set")->capture_default_str();
+    app.add_option("--seed", seed, "of every ray set")
+        ->capture_default_str()
+        ->check(whole_number(0, ~uint64_t(0)));
     app.add_flag("--shuffle", shuffle, "rays in random order (incoherent)");
     app.add_option("--error-rays", error_rays, "rays of each set whose errors are measured (0: none)")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(whole_number(0, 0xFFFFFFFF));
+}
+
+void RayArguments::check() const {
+    parse_camera(camera);
+    for (const std::string& name : names)
+        if (!is_file(name)) ray_set_named(name);
 }
 
 Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolution& size) {

@@ -23,6 +23,8 @@ struct RayArguments {
     size_t error_rays = 10'000;  // of each set; 0: no errors are measured
 
     void add_to(CLI::App& app, const std::string& default_names);
+    /// Throws Error (usage) for a camera or a set that there is not: before work has begun on the others.
+    void check() const;
 };
 
 /// The camera that frames a scene as the options say.

@@ -4,6 +4,7 @@
 #include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/ray_arguments.h"
+#include "commands/usage_error.h"
 #include "report/images.h"
 #include "report/shading.h"
 
@@ -55,21 +56,23 @@ int run(const Options& options) {
         fail(ExitCode::usage, "render takes one MODEL (a scene file holds several), not {}",
              options.models.models.size());
     check_image_path(options.output);
-    const Scene scene = load_scene(options.models.models.front(), options.models.curve_options());
-    if (scene.curve_count() == 0) fail(ExitCode::bad_input, "{}: there is no curve to render", scene.name);
-    const Curves curves = all_curves(scene);
     const Resolution size = parse_resolution(options.resolution);
     RayArguments ray_arguments;
     ray_arguments.camera = options.camera;
+    ray_arguments.check();
+    const PrimitiveChoice choice = options.primitive.primitives.empty()
+                                       ? parse_primitive("rocaps", options.primitive.caps)
+                                       : options.primitive.choices().front();
+    const Scene scene = load_scene(options.models.models.front(), options.models.curve_options());
+    if (scene.curve_count() == 0)
+        fail(ExitCode::bad_input, "{}: there is no curve to render", options.models.models.front());
+    const Curves curves = all_curves(scene);
     const Camera camera = camera_of(scene, ray_arguments, size);
     const Rays rays = primary_rays(camera, {size.width, size.height, options.samples}, options.seed);
     const TraceDevice device({options.device.device, options.device.validation});
     CaseInput input{device, scene, curves, 1, 0, {}};
     input.options.normals = true;
     input.options.ray_extent = object_extent(scene, extent_of(rays));
-    const PrimitiveChoice choice = options.primitive.primitives.empty()
-                                       ? parse_primitive("rocaps", options.primitive.caps)
-                                       : options.primitive.choices().front();
     const PreparedCase prepared = prepare_case(input, choice);
     const TraceResult trace = prepared.traced->trace(rays, {});
     ShadingOptions shading;
@@ -106,8 +109,10 @@ Command render_command() {
                 app.add_option("--camera", options->camera, "eye=...:target=... or from=x,y,z[:zoom=factor]");
                 app.add_option("--samples", options->samples, "rays per pixel")
                     ->capture_default_str()
-                    ->check(CLI::Range(1u, 4096u));
-                app.add_option("--seed", options->seed, "of the places in a pixel")->capture_default_str();
+                    ->check(whole_number(1, 4096));
+                app.add_option("--seed", options->seed, "of the places in a pixel")
+                    ->capture_default_str()
+                    ->check(whole_number(0, ~uint64_t(0)));
                 app.add_flag("--no-shadows", options->no_shadows, "light goes through hair (faster)");
                 return [options] { return run(*options); };
             }};

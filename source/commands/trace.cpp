@@ -5,6 +5,7 @@
 #include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/hit_files.h"
+#include "commands/usage_error.h"
 #include "measure/bench_case.h"
 #include "measure/statistics.h"
 
@@ -99,7 +100,7 @@ Command trace_command() {
                                "folder for t, curve, u, normal (.npy) and stats.json")
                     ->required();
                 app.add_option("--repeat", options->repeat, "times to trace; stats.json keeps each time")
-                    ->check(CLI::Range(1u, 10000u));
+                    ->check(whole_number(1, 10000));
                 app.add_flag("--shadow", options->shadow, "any hit will do: t is tmin and curve 0 for a hit");
                 app.add_flag("--no-normals", options->no_normals, "leave normal.npy out (faster)");
                 return [options] { return run(*options); };

@@ -1,5 +1,6 @@
 // strandlab validate: every primitive against the oracle of its own surface, and against Embree.
 #include "base/error.h"
+#include "base/progress.h"
 #include "commands/arguments.h"
 #include "commands/bundled_models.h"
 #include "commands/command.h"
@@ -116,9 +117,12 @@ std::vector<std::string> cells(const std::string& model, const std::string& rays
 int run(Options& options) {
     if (options.models.models.empty()) options.models.models = bundled_models();
     if (options.rays.names.empty()) options.rays.names = {"primary", "secondary"};
-    const TraceDevice device({options.device.device, options.device.validation});
+    options.rays.check();
+    const CurveOptions curve_options = options.models.curve_options();
+    const std::vector<PrimitiveChoice> choices = options.primitives.choices();
     const Resolution size =
         parse_resolution(options.rays.resolution.empty() ? "320x180" : options.rays.resolution);
+    const TraceDevice device({options.device.device, options.device.validation});
     const bool with_embree = embree_available() && !options.no_embree;
     Table table({{"model", "", true},
                  {"rays", "", true},
@@ -142,14 +146,15 @@ int run(Options& options) {
     bool all_hold = true;
     std::string notes;
     for (const std::string& model : options.models.models) {
-        const Scene scene = load_scene(model, options.models.curve_options());
+        const Scene scene = load_scene(model, curve_options);
         const Curves curves = all_curves(scene);
         if (curves.curves.empty()) continue;
         const RaySets rays(scene, curves, options.rays, size, options.primitives.scene_caps());
         CaseInput input{device, scene, curves, 1, 0, {}};
         input.options.normals = true;
         input.options.ray_extent = object_extent(scene, rays.extent());
-        for (const PrimitiveChoice& choice : options.primitives.choices()) {
+        Progress progress(scene.name, choices.size() * rays.sets().size());
+        for (const PrimitiveChoice& choice : choices) {
             const PreparedCase prepared = prepare_case(input, choice);
             for (const MeasuredRays& set : rays.sets()) {
                 const Verdict verdict = judge(input, prepared, set, with_embree);
@@ -159,6 +164,7 @@ int run(Options& options) {
                     notes.find(choice.label() + ":") == std::string::npos)
                     notes += fmt::format("{}: wrong on at most {} of decisive rays: {}\n", choice.label(),
                                          percent(verdict.tolerance.wrong), verdict.tolerance.reason);
+                progress.tick();
             }
         }
     }

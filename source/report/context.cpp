@@ -3,6 +3,7 @@
 #include "base/build_info.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <ctime>
 #include <fstream>
@@ -66,6 +67,7 @@ Context current_context() {
     context.build_type = build.build_type;
     context.cpu = or_unknown(value_in("/proc/cpuinfo", "model name", ':'));
     context.cores = usable_cores();
+    context.threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGE_SIZE);
     if (pages > 0 && page_bytes > 0)
         context.memory_bytes = static_cast<uint64_t>(pages) * static_cast<uint64_t>(page_bytes);

@@ -13,8 +13,9 @@ struct Context {
     std::string version, commit;
     bool modified = false;  // the sources differed from the commit
     std::string compiler, flags, build_type;
-    std::string cpu;   // model name
-    size_t cores = 0;  // that the program may run on
+    std::string cpu;     // model name
+    size_t cores = 0;    // that the program may run on
+    size_t threads = 0;  // that it uses (--threads)
     uint64_t memory_bytes = 0;
     std::string system;  // "Debian GNU/Linux 12 (bookworm), Linux 6.1.0"
     std::string time;    // UTC, "2025-01-31T12:00:00Z", when the context was taken

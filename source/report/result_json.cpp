@@ -139,11 +139,12 @@ Json memory_of(const ResultRow& row) {
 }
 
 Json to_json(const Context& context) {
-    return {
-        {"version", context.version},   {"commit", context.commit}, {"modified", context.modified},
-        {"compiler", context.compiler}, {"flags", context.flags},   {"build_type", context.build_type},
-        {"cpu", context.cpu},           {"cores", context.cores},   {"memory_bytes", context.memory_bytes},
-        {"system", context.system},     {"time", context.time}};
+    return {{"version", context.version},   {"commit", context.commit},
+            {"modified", context.modified}, {"compiler", context.compiler},
+            {"flags", context.flags},       {"build_type", context.build_type},
+            {"cpu", context.cpu},           {"cores", context.cores},
+            {"threads", context.threads},   {"memory_bytes", context.memory_bytes},
+            {"system", context.system},     {"time", context.time}};
 }
 
 }  // namespace

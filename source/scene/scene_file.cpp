@@ -40,24 +40,37 @@ struct SceneReader {
                 reject("{}: unknown key '{}'", where, key);
     }
 
-    float number(const Json& object, const std::string& where, const char* key, float fallback) const {
+    float number(const Json& object, const std::string& where, const char* key, float fallback, double low,
+                 double high) const {
         if (!object.contains(key)) return fallback;
         const Json& value = object[key];
-        if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<float>()))
-            reject("{}: {} = {} is not a positive number", where, key, value.dump());
+        if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high))
+            reject("{}: {} = {} is not a number from {:g} to {:g}", where, key, text_of(value), low, high);
         return value.get<float>();
+    }
+
+    std::string path_in(const Json& object, const std::string& where, const char* key) const {
+        if (!object.contains(key)) reject("{}: needs \"{}\", a path", where, key);
+        if (!object[key].is_string())
+            reject("{}: {} = {} is not a path in quotes", where, key, text_of(object[key]));
+        return relative(object[key].get<std::string>());
+    }
+
+    /// A value as it may stand in a message: not a whole file.
+    static std::string text_of(const Json& value) {
+        std::string text = value.dump();
+        if (text.size() > 60) text.replace(57, std::string::npos, "...");
+        return text;
     }
 
     Curves model(const Json& entry, const std::string& where, CurveOptions options) const {
         allow_keys(entry, where, {"file", "strands", "radius", "radius_tip", "unit_scale"});
-        if (!entry.contains("file") || !entry["file"].is_string())
-            reject("{}: needs \"file\", a path", where);
         options.override_radii |= entry.contains("radius") || entry.contains("radius_tip");
-        options.root_radius = number(entry, where, "radius", options.root_radius);
-        options.tip_radius = number(entry, where, "radius_tip", options.tip_radius);
-        options.unit_scale = number(entry, where, "unit_scale", options.unit_scale);
-        return load_and_warn(relative(entry["file"].get<std::string>()), options,
-                             entry.contains("strands") ? relative(entry["strands"].get<std::string>()) : "");
+        options.root_radius = number(entry, where, "radius", options.root_radius, 0, largest_coordinate);
+        options.tip_radius = number(entry, where, "radius_tip", options.tip_radius, 0, largest_coordinate);
+        options.unit_scale = number(entry, where, "unit_scale", options.unit_scale, 1e-9, 1e9);
+        return load_and_warn(path_in(entry, where, "file"), options,
+                             entry.contains("strands") ? path_in(entry, where, "strands") : "");
     }
 
     std::string relative(const std::string& file) const {
@@ -70,7 +83,8 @@ struct SceneReader {
         SceneInstance instance;
         if (!entry.contains("model") || !entry["model"].is_number_unsigned() ||
             entry["model"].get<uint64_t>() >= models)
-            reject("{}: needs \"model\", a number from 0 to {}", where, models - 1);
+            reject("{}: model = {} is not a whole number from 0 to {}", where,
+                   entry.contains("model") ? text_of(entry["model"]) : "(missing)", models - 1);
         instance.model = entry["model"].get<uint32_t>();
         if (entry.contains("transform")) instance.world_from_object = transform(entry["transform"], where);
         return instance;
@@ -82,7 +96,7 @@ struct SceneReader {
         glm::mat4x3 matrix;
         for (int i = 0; i < 12; ++i) {
             if (!numbers[i].is_number() || !std::isfinite(numbers[i].get<float>()))
-                reject("{}: transform[{}] = {} is not a finite number", where, i, numbers[i].dump());
+                reject("{}: transform[{}] = {} is not a finite number", where, i, text_of(numbers[i]));
             matrix[i % 4][i / 4] = numbers[i].get<float>();
         }
         const double volume = glm::determinant(glm::dmat3(glm::mat3(matrix)));
@@ -113,8 +127,8 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
     if (scene.curve_count() >= 0xFFFFFFFFull) reader.reject("{} curves are too many", scene.curve_count());
     if (!file.contains("instances"))
         for (uint32_t i = 0; i < scene.models.size(); ++i) scene.instances.push_back({i});
-    else if (!file["instances"].is_array())
-        reader.reject("instances must be a list");
+    else if (!file["instances"].is_array() || file["instances"].empty())
+        reader.reject("instances must be a list of at least one; leave it out to place every model once");
     else
         for (const Json& entry : file["instances"]) {
             const std::string where = fmt::format("instances[{}]", scene.instances.size());

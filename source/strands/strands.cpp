@@ -16,14 +16,6 @@ namespace {
 
 constexpr size_t strands_per_block = 256;
 
-void check_options(const CurveOptions& options) {
-    if (!(options.unit_scale >= 1e-9f && options.unit_scale <= 1e9f))
-        fail(ExitCode::usage, "unit scale {:g} is not a number from 1e-9 to 1e9", options.unit_scale);
-    for (const float radius : {options.root_radius, options.tip_radius})
-        if (!(radius >= 0 && radius <= largest_coordinate))
-            fail(ExitCode::usage, "radius {:g} is not a number from 0 to {:g}", radius, largest_coordinate);
-}
-
 glm::vec4 scaled(const glm::vec4& point, float scale) { return glm::vec4(glm::dvec4(point) * double(scale)); }
 
 void check_points(const Strands& strands, float scale) {
@@ -147,6 +139,19 @@ std::vector<StrandRange> plan(const Strands& strands, const CurveOptions& option
 }
 
 }  // namespace
+
+void check_options(const CurveOptions& options) {
+    if (!(options.unit_scale >= 1e-9f && options.unit_scale <= 1e9f))
+        fail(ExitCode::usage, "unit scale {:g} is not a number from 1e-9 to 1e9 (--unit-scale)",
+             options.unit_scale);
+    const auto check_radius = [](float radius, const char* option) {
+        if (!(radius >= 0 && radius <= largest_coordinate))
+            fail(ExitCode::usage, "radius {:g} is not a number from 0 to {:g} ({})", radius,
+                 largest_coordinate, option);
+    };
+    check_radius(options.root_radius, "--radius");
+    check_radius(options.tip_radius, "--radius-tip");
+}
 
 bool is_usable(const glm::vec4& point) {
     return std::abs(point.x) <= largest_coordinate && std::abs(point.y) <= largest_coordinate &&

@@ -52,6 +52,9 @@ constexpr float largest_coordinate = 1e9f;
 /// ("none") included.
 bool is_usable(const glm::vec4& point);
 
+/// Throws Error (usage) when a radius or the unit scale is out of range.
+void check_options(const CurveOptions& options);
+
 /// Makes the curves of all strands, one between every two neighbouring distinct points: cubic
 /// Catmull-Rom with centripetal knots (Yuksel, Schaefer and Keyser 2011, "Parameterization and
 /// applications of Catmull-Rom curves") or uniform ones, straight lines, or a uniform B-spline that has

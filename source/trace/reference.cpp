@@ -1,6 +1,7 @@
 #include "trace/reference.h"
 
 #include "base/parallel.h"
+#include "base/progress.h"
 
 #include <glm/glm.hpp>
 
@@ -43,6 +44,7 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
     reference.hits.resize(rays.size());
     reference.decisive.resize(rays.size());
     reference.decisive_place.resize(rays.size());
+    Progress progress("reference hits", rays.size());
     parallel_for(rays.size(), [&](size_t i) {
         const ReferenceHit hit = oracle.trace(rays[i], OracleOptions{});
         const Decided is_decided =
@@ -50,6 +52,7 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
         reference.hits[i] = hit;
         reference.decisive[i] = is_decided.strand;
         reference.decisive_place[i] = is_decided.place;
+        progress.tick();
     });
     return reference;
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 
 #include <cmath>
 
@@ -80,7 +81,11 @@ ReferenceHit SceneOracle::trace(const Ray& ray) const {
 
 std::vector<ReferenceHit> SceneOracle::trace(std::span<const Ray> rays) const {
     std::vector<ReferenceHit> hits(rays.size());
-    parallel_for(rays.size(), [&](size_t i) { hits[i] = trace(rays[i]); });
+    Progress progress("reference hits", rays.size());
+    parallel_for(rays.size(), [&](size_t i) {
+        hits[i] = trace(rays[i]);
+        progress.tick();
+    });
     return hits;
 }
 

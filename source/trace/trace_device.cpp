@@ -4,8 +4,6 @@
 #include "base/parallel.h"
 #include "trace/cpu_trace.h"
 
-#include <tbb/task_arena.h>
-
 #include <chrono>
 #include <cmath>
 
@@ -114,8 +112,7 @@ TraceDevice::TraceDevice(const DeviceOptions& options) {
                  options.selector);
         is_double_ = options.selector == "cpu-double";
         info_.name = options.selector;
-        info_.driver = fmt::format("C++ {}, {} threads", is_double_ ? "double" : "float",
-                                   tbb::this_task_arena::max_concurrency());
+        info_.driver = is_double_ ? "C++ double" : "C++ float";
         info_.api_version = "none";
         info_.kind = "cpu";
         return;
