@@ -104,8 +104,9 @@ TEST_F(UsageTest, SaysWhichCapsAPrimitiveCanDo) {
 
 TEST_F(UsageTest, TakesPrimitivesBeforeAndAfterTheModel) {
     for (const Arguments& arguments :
-         {Arguments{"--primitive", "lss:segments=4,tolerance=0.5", "--primitive", "prhi:variant=published,"
-                                                                                  "iterations=40",
+         {Arguments{"--primitive", "lss:segments=4,tolerance=0.5", "--primitive",
+                    "prhi:variant=published,"
+                    "iterations=40",
                     "generate:case,case=arc,size=2"},
           Arguments{"generate:case,case=arc,size=2", "--primitive", "lss:segments=4,tolerance=0.5",
                     "--primitive", "prhi:variant=published,iterations=40"}}) {
@@ -157,13 +158,14 @@ TEST_F(UsageTest, EveryCommandHasHelpWithExamplesThatParse) {
     EXPECT_EQ(overview.log, "");
     EXPECT_TRUE(contains(overview.output, "Exit codes: 0 ok"));
     const std::vector<std::string> commands = commands_in(overview.output);
-    EXPECT_EQ(commands, (std::vector<std::string>{"bench", "validate", "trace", "compare", "render", "convert",
-                                                  "info"}));
+    EXPECT_EQ(commands, (std::vector<std::string>{"bench", "validate", "trace", "compare", "render",
+                                                  "convert", "info"}));
     for (const std::string& command : commands) {
         const Outcome help = run({command, "--help"});
         expect_success(help);
         EXPECT_EQ(help.log, "");
-        std::istringstream lines(help.output.substr(std::min(help.output.find("Examples:"), help.output.size())));
+        std::istringstream lines(
+            help.output.substr(std::min(help.output.find("Examples:"), help.output.size())));
         size_t examples = 0;
         for (std::string line; std::getline(lines, line);) {
             if (line.rfind("  strandlab ", 0) != 0) continue;
@@ -173,7 +175,8 @@ TEST_F(UsageTest, EveryCommandHasHelpWithExamplesThatParse) {
             EXPECT_EQ(words.front(), command) << line;
             // Without a device and without the files there are only errors left that are none of usage.
             const Outcome outcome = run(words, no_vulkan);
-            EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 5) << line << "\n" << outcome.log;
+            EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 5) << line << "\n"
+                                                                                     << outcome.log;
         }
         EXPECT_GE(examples, 1u) << command;
     }
