@@ -122,6 +122,13 @@ void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
+void check_appendable(const std::string& path) {
+    struct stat status;
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) fail_at(path, "append", EISDIR);
+    if (::access(exists ? path.c_str() : folder_of(path).c_str(), W_OK) != 0) fail_at(path, "append", errno);
+}
+
 void append_line(const std::string& path, std::string_view line) {
     const Descriptor file{::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666)};
     if (file.value < 0) fail_at(path, "append", errno);

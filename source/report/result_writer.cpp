@@ -24,6 +24,8 @@ std::string first_line(const std::string& path) {
 
 ResultWriter::ResultWriter(std::string json_path, std::string csv_path)
     : json_path_(std::move(json_path)), csv_path_(std::move(csv_path)) {
+    for (const std::string& path : {json_path_, csv_path_})
+        if (!path.empty()) check_appendable(path);
     if (csv_path_.empty()) return;
     const std::string header = first_line(csv_path_);
     if (!header.empty() && header != csv_line(csv_columns()))

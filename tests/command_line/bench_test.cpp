@@ -90,7 +90,10 @@ TEST_F(BenchTest, AppendsRows) {
     write("other.csv", "a,b\n1,2\n");
     expect_failure(bench({"--csv", "other.csv"}), 5, {"other.csv", "columns"});
     EXPECT_EQ(read("other.csv"), "a,b\n1,2\n");
-    expect_last_line(bench({"--json", "nowhere/r.jsonl"}), 5, {"nowhere/r.jsonl", "No such file"});
+    for (const char* option : {"--json", "--csv"}) {
+        expect_failure(bench({option, "nowhere/r"}), 5, {"nowhere/r", "cannot append", "No such file"});
+        expect_failure(bench({option, "cache"}), 5, {"cache", "cannot append", "directory"});
+    }
 }
 
 TEST_F(BenchTest, KeepsItsCacheWhereItShould) {

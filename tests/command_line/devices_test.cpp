@@ -7,6 +7,15 @@ namespace {
 
 const std::string fur = STRANDLAB_MODELS "/fur.hair";
 
+/// The bundled models of this source tree.
+const Environment bundled{{"STRANDLAB_MODELS", STRANDLAB_MODELS}};
+
+Environment without_vulkan() {
+    Environment all = no_vulkan;
+    all.insert(all.end(), bundled.begin(), bundled.end());
+    return all;
+}
+
 class DevicesTest : public CommandLineTest {
   protected:
     void SetUp() override {
@@ -14,11 +23,11 @@ class DevicesTest : public CommandLineTest {
         write_rays(path("r.npy"), {ray_at(0), ray_at(0.5f)});
     }
 
-    /// One run of every command that traces.
+    /// One run of every command that traces; bench and validate take the bundled models.
     static std::vector<Arguments> tracing_commands(const Arguments& more) {
         std::vector<Arguments> all{
-            {"bench", fur, "--resolution", "32x18", "--repeat", "1"},
-            {"validate", fur, "--resolution", "32x18"},
+            {"bench", "--resolution", "32x18", "--repeat", "1"},
+            {"validate", "--resolution", "32x18"},
             {"trace", "--curves", "c.npy", "--rays", "r.npy", "--primitive", "lss", "--out", "hits"},
 #ifdef STRANDLAB_IMAGES
             {"render", fur, "-o", "x.png", "--resolution", "32x18"},
@@ -31,7 +40,7 @@ class DevicesTest : public CommandLineTest {
 
 TEST_F(DevicesTest, WithoutVulkanSaysWhatToInstall) {
     for (const Arguments& arguments : tracing_commands({})) {
-        const Outcome outcome = run(arguments, no_vulkan);
+        const Outcome outcome = run(arguments, without_vulkan());
         if (outcome.code == 0) GTEST_SKIP() << "this Vulkan loader finds drivers elsewhere";
         expect_failure(outcome, 3, {"tools/setup", "lavapipe"});
     }
@@ -45,7 +54,7 @@ TEST_F(DevicesTest, WithoutVulkanSaysWhatToInstall) {
 TEST_F(DevicesTest, TheProcessorNeedsNoVulkan) {
     for (const char* device : {"cpu-float", "cpu-double"})
         for (const Arguments& arguments : tracing_commands({"--device", device}))
-            expect_success(run(arguments, no_vulkan));
+            expect_success(run(arguments, without_vulkan()));
     expect_failure(run({"bench", fur, "--device", "cpu-float", "--validation"}), 2,
                    {"--validation", "cpu-float"});
 }
@@ -64,7 +73,7 @@ TEST_F(DevicesTest, NamesTheDevicesThereAre) {
 TEST_F(DevicesTest, ValidationLayersAreSilent) {
     SKIP_WITHOUT_DEVICE();
     for (const Arguments& arguments : tracing_commands({"--validation"})) {
-        const Outcome outcome = run(arguments);
+        const Outcome outcome = run(arguments, bundled);
         if (contains(outcome.log, "is not installed")) GTEST_SKIP() << outcome.log;
         expect_success(outcome);
         EXPECT_FALSE(contains(outcome.log + outcome.output, "VUID")) << outcome.log << outcome.output;

@@ -106,7 +106,6 @@ TEST_F(OutputsTest, ConvertGivesTheSameBytesBack) {
             run({"convert", "c.npy", "--strands", "s.npy", "-o", "c2.npy", "--write-strands", "s2.npy"}));
         EXPECT_EQ(read("c.npy"), read("c2.npy"));
         EXPECT_EQ(read("s.npy"), read("s2.npy"));
-        write("link", "");
         std::filesystem::copy_file(model, path("original"),
                                    std::filesystem::copy_options::overwrite_existing);
         EXPECT_TRUE(read("again.hair") == read("original")) << name;
@@ -118,7 +117,7 @@ TEST_F(OutputsTest, ConvertGivesTheSameBytesBack) {
         expect_success(run({"convert", "a.hair", "-o", "b.hair", "--quiet"}));
         EXPECT_EQ(read("a.hair"), read("b.hair")) << name;
     }
-    expect_failure(run({"convert", "m.tfx", "-o", "m2.tfx", "--quiet"}), 5, {"m2.tfx", ".hair or .npy"});
+    expect_last_line(run({"convert", "m.tfx", "-o", "m2.tfx", "--quiet"}), 5, {"m2.tfx", ".hair or .npy"});
 }
 
 TEST_F(OutputsTest, KeepsTheOldFileWhereItCannotWrite) {

@@ -2,6 +2,8 @@
 #include "command_line/files.h"
 #include "command_line/program.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 namespace strandlab::testing_tools {
@@ -15,7 +17,7 @@ class ScenesTest : public CommandLineTest {
                                      line_curve({0.5f, -1, 0}, {0.5f, 1, 0}, 0.05f)});
     }
 
-    Outcome convert_nothing(const std::string& scene) const {
+    Outcome trace_scene(const std::string& scene) const {
         write("s.json", scene);
         write_rays(path("r.npy"), {ray_at(0)});
         return run({"trace", "--curves", "s.json", "--rays", "r.npy", "--primitive", "lss", "--device",
@@ -23,7 +25,7 @@ class ScenesTest : public CommandLineTest {
     }
     void expect_refused(const std::string& scene, std::vector<std::string> parts) const {
         if (parts.empty() || !contains(parts.front(), "npy")) parts.push_back("s.json: ");
-        expect_failure(convert_nothing(scene), 5, parts);
+        expect_failure(trace_scene(scene), 5, parts);
         EXPECT_FALSE(exists("hits"));
     }
     /// A scene of one model with this entry for its only instance.
@@ -34,11 +36,9 @@ class ScenesTest : public CommandLineTest {
 };
 
 TEST_F(ScenesTest, RefusesFilesThatAreNoScene) {
-    expect_failure(
-        run({"bench", "missing.json", "--device", "cpu-float"}).code == 5
-            ? run({"trace", "--curves", "missing.json", "--rays", "r", "--primitive", "lss", "--out", "d"})
-            : Outcome{},
-        5, {"missing.json", "No such file"});
+    for (const char* command : {"bench", "validate"})
+        expect_last_line(run({command, "missing.json", "--device", "cpu-float"}), 5,
+                         {"missing.json", "No such file"});
     expect_refused("", {"not JSON"});
     expect_refused("{\"models\": [", {"not JSON", "line 1"});
     expect_refused("{\n\"models\": \x1b\n}", {"not JSON", "line 2"});
@@ -121,10 +121,13 @@ TEST_F(ScenesTest, TracesTwoModelsAndThreeInstances) {
                 EXPECT_TRUE(is_same) << primitive << " on " << device << ": " << found[i] << " != " << t[i];
                 EXPECT_NEAR(normals[i].z, std::isfinite(t[i]) ? 1 : 0, 1e-3f);
             }
-            const Outcome errors =
-                run({"compare", "--curves", "s.json", "--rays", "r.npy", "--hits", "hits", "--surface",
-                     primitive, "--caps", std::string(primitive) == "prhi" ? "open" : "round"});
+            const std::string caps = std::string(primitive) == "prhi" ? "open" : "round";
+            const Outcome errors = run({"compare", "--curves", "s.json", "--rays", "r.npy", "--hits", "hits",
+                                        "--surface", primitive, "--caps", caps, "--json"});
             expect_success(errors);
+            const nlohmann::json decisive = nlohmann::json::parse(errors.output).at("decisive");
+            EXPECT_EQ(decisive.at("matches"), 6) << errors.output;
+            EXPECT_EQ(decisive.at("wrong_strand").at("count"), 0) << errors.output;
         }
 }
 

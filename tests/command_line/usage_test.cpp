@@ -104,17 +104,17 @@ TEST_F(UsageTest, SaysWhichCapsAPrimitiveCanDo) {
 
 TEST_F(UsageTest, TakesPrimitivesBeforeAndAfterTheModel) {
     for (const Arguments& arguments :
-         {Arguments{"--primitive", "lss:segments=4,tolerance=0.5", "--primitive",
+         {Arguments{"--primitive", "lss:segments=3,tolerance=0.5", "--primitive",
                     "prhi:variant=published,"
                     "iterations=40",
                     "generate:case,case=arc,size=2"},
-          Arguments{"generate:case,case=arc,size=2", "--primitive", "lss:segments=4,tolerance=0.5",
+          Arguments{"generate:case,case=arc,size=2", "--primitive", "lss:segments=3,tolerance=0.5",
                     "--primitive", "prhi:variant=published,iterations=40"}}) {
         Arguments all{"bench", "--device", "cpu-float", "--resolution", "16x16", "--rays", "primary"};
         all.insert(all.end(), arguments.begin(), arguments.end());
         const Outcome outcome = run(all);
         expect_success(outcome);
-        EXPECT_TRUE(contains(outcome.output, "lss:segments=4,tolerance=0.5")) << outcome.output;
+        EXPECT_TRUE(contains(outcome.output, "lss:segments=3,tolerance=0.5")) << outcome.output;
         EXPECT_TRUE(contains(outcome.output, "prhi:variant=published")) << outcome.output;
     }
 }
