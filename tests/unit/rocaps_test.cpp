@@ -40,11 +40,14 @@ Curves one_strand(std::vector<Curve> curves) {
 Answered answer(const RayCurvePair& pair, const Curves& strand, const std::string& caps) {
     const PrimitiveChoice choice = parse_primitive("rocaps", caps);
     const Surface surface = choice.primitive->surface(strand, choice.options);
-    const Oracle oracle(surface, {.radius_scale = 1 + 1e-3, .end_shift = 1e-3});
+    // A tip of radius zero, which is no surface but closes the solid, only changes with the ulps.
+    const double ulps = 0.01;
+    const Oracle oracle(surface, {.radius_scale = 1 + 1e-3, .radius_ulps = ulps, .end_shift = 1e-3});
     Answered answered{pair, oracle.trace(pair.ray, {}), true};
     const double length = glm::length(glm::dvec3(pair.ray.direction));
     for (const double change : {-1e-3, 1e-3}) {
-        const ReferenceHit other = oracle.trace(pair.ray, {.radius_scale = 1 + change, .end_shift = change});
+        const ReferenceHit other =
+            oracle.trace(pair.ray, {.radius_scale = 1 + change, .radius_ulps = ulps, .end_shift = change});
         if (other.is_hit() != answered.hit.is_hit() ||
             (other.is_hit() && !(std::abs(other.t - answered.hit.t) * length < 0.3 * answered.hit.radius)))
             answered.decisive = false;
