@@ -14,6 +14,7 @@ layout(push_constant) uniform PushConstants { TraceParameters parameters; };
 // Specialization constants of all primitives (ids below 16); those of one primitive start at 16.
 layout(constant_id = 0) const bool has_leaf_table = true;  // else leaf i is piece i % n of curve i / n
 layout(constant_id = 1) const bool wants_normals = false;
+layout(constant_id = 2) const uint curves_of_a_ray = 0u;  // not 0: ray i meets curves [i n, (i + 1) n) alone
 
 struct Ray {
     vec3 origin;
@@ -52,6 +53,14 @@ Leaf fetch_leaf(GeometryRow row, uint primitive) {
     if (has_leaf_table) return LeafBuffer(row.leaves).items[row.first_leaf + primitive];
     uint index = row.first_leaf + primitive;
     return Leaf(index / row.pieces, (index % row.pieces) | (row.pieces << 12));
+}
+
+// Index of the current ray within its buffer.
+uint ray_index() { return parameters.first_ray + gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x; }
+
+// Whether the leaf belongs to another ray's curves.
+bool is_foreign(GeometryRow row, Leaf leaf) {
+    return curves_of_a_ray != 0u && (row.first_curve + leaf.curve) / curves_of_a_ray != ray_index();
 }
 
 #endif

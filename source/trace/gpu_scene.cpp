@@ -10,12 +10,13 @@
 #include <cassert>
 #include <chrono>
 #include <cstring>
+#include <numeric>
 
 namespace strandlab {
 namespace {
 
 // Ids of shaders/shared/trace.glsl.
-enum ConstantId : uint32_t { has_leaf_table_id = 0, wants_normals_id = 1 };
+enum ConstantId : uint32_t { has_leaf_table_id = 0, wants_normals_id = 1, curves_of_a_ray_id = 2 };
 
 // gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
 constexpr uint32_t shadow_flags = 0x4u | 0x8u;
@@ -43,6 +44,25 @@ BottomLevelInput input_of(const Geometry& geometry, const std::vector<Box>& padd
     return input;
 }
 
+/// Puts the leaves in the order of the rays that they belong to.
+void order_by_ray(Geometry& geometry, uint32_t curves) {
+    std::vector<uint32_t> order(geometry.leaf_count());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto ray = [&](uint32_t leaf) { return geometry.leaves[leaf].curve / curves; };
+    const auto before = [&](uint32_t a, uint32_t b) { return ray(a) < ray(b); };
+    if (std::is_sorted(order.begin(), order.end(), before)) return;
+    std::stable_sort(order.begin(), order.end(), before);
+    reorder_leaves(geometry, order);
+}
+
+/// About `count` leaves from `first` on, as many more as leave no ray's leaves cut in two.
+size_t whole_rays(std::span<const Leaf> leaves, size_t first, size_t count, uint32_t curves) {
+    size_t end = first + count;
+    const auto cuts = [&](size_t i) { return leaves[i].curve / curves == leaves[i - 1].curve / curves; };
+    while (end < leaves.size() && cuts(end)) ++end;
+    return end - first;
+}
+
 Buffer upload(const Device& device, const std::vector<std::byte>& bytes, SceneCost& cost) {
     cost.record_bytes += bytes.size();
     return make_buffer(device, std::span<const std::byte>(bytes), Buffer::Use::storage);
@@ -52,11 +72,13 @@ Buffer upload(const Device& device, const std::vector<std::byte>& bytes, SceneCo
 
 GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector<SceneModel> models,
                    std::span<const SceneInstance> instances, const SceneOptions& options)
-    : device_(device), normals_(options.normals) {
+    : device_(device), normals_(options.normals), curves_of_a_ray_(options.curves_of_a_ray) {
     const bool keeps_order = device.info().is_lavapipe;
-    const bool reorders = options.order == SceneOptions::Order::median ||
-                          (options.order == SceneOptions::Order::automatic && keeps_order);
+    const bool reorders =
+        curves_of_a_ray_ == 0 && (options.order == SceneOptions::Order::median ||
+                                  (options.order == SceneOptions::Order::automatic && keeps_order));
     for (SceneModel& model : models) {
+        if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
         if (!reorders || model.geometry.leaf_count() < 3) continue;
         const auto start = std::chrono::steady_clock::now();
@@ -90,10 +112,12 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     std::vector<Box> boxes(geometry.boxes.size());
     parallel_for(boxes.size(), [&](size_t i) { boxes[i] = padded(geometry.boxes[i], options.ray_extent); });
     const size_t most = leaves_per_structure(device_.info(), options.max_leaves);
-    for (size_t first = 0; first < geometry.leaf_count(); first += most) {
-        const size_t count = std::min(most, geometry.leaf_count() - first);
+    for (size_t first = 0, count = 0; first < geometry.leaf_count(); first += count) {
+        count = std::min(most, geometry.leaf_count() - first);
+        if (curves_of_a_ray_ != 0) count = whole_rays(geometry.leaves, first, count, curves_of_a_ray_);
         BottomLevelInput input = input_of(geometry, boxes, first, count);
         input.compact = options.compact;
+        input.opaque = curves_of_a_ray_ == 0;
         parts_.push_back(
             {build_bottom_level(device_, input, cost_.builds), index, static_cast<uint32_t>(first)});
         ++cost_.structure_count;
@@ -122,44 +146,71 @@ void GpuScene::add_instances(std::span<const SceneInstance> instances,
              rows.size());
     rows_ = make_buffer(device_, std::span<const layout::GeometryRow>(rows), Buffer::Use::storage);
     cost_.record_bytes += rows.size() * sizeof(rows[0]);
-    top_ = build_top_level(device_, inputs, cost_.builds);
+    add_tops(inputs, models);
+}
+
+void GpuScene::add_tops(std::span<const InstanceInput> inputs, const std::vector<SceneModel>& models) {
+    if (curves_of_a_ray_ == 0) {
+        tops_.push_back({build_top_level(device_, inputs, cost_.builds)});
+        return;
+    }
+    assert(models.size() == 1 && inputs.size() == parts_.size());
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        const Leaf& leaf = models[0].geometry.leaves[parts_[i].first_leaf];
+        // Rays without leaves are traced with the structure before theirs, or the first, and miss.
+        const uint32_t first = i == 0 ? 0 : leaf.curve / curves_of_a_ray_;
+        if (i > 0) tops_.back().end_ray = first;
+        tops_.push_back({build_top_level(device_, inputs.subspan(i, 1), cost_.builds), first});
+    }
 }
 
 void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants) {
     const auto start = std::chrono::steady_clock::now();
     const PrimitiveShaders& shaders = primitive.shaders;
+    const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
+    const std::string any_hit = filters_triangles ? "own_curve.rahit" : shaders.any_hit;
     const PipelineStages stages{embedded_shader("trace.rgen"), embedded_shader("trace.rmiss"),
                                 embedded_shader(shaders.closest_hit), embedded_shader(shaders.intersection),
-                                embedded_shader(shaders.any_hit)};
+                                embedded_shader(any_hit)};
     assert(!stages.closest_hit.empty() && (shaders.intersection.empty() || !stages.intersection.empty()));
     PipelineConstants all = constants;
     all.emplace_back(has_leaf_table_id, has_leaf_table_ ? 1u : 0u);
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
+    all.emplace_back(curves_of_a_ray_id, curves_of_a_ray_);
     pipeline_.emplace(device_, stages, all, static_cast<uint32_t>(sizeof(layout::TraceParameters)));
     cost_.pipeline_ms = milliseconds_since(start);
 }
 
 std::vector<RayTracingPipeline::Launch> GpuScene::launches(const Rays& rays,
                                                            layout::TraceParameters parameters) const {
-    const auto count = static_cast<uint32_t>(rays.rays.size());
+    std::vector<RayTracingPipeline::Launch> all;
+    for (const Top& top : tops_) add_launches(rays, parameters, top, all);
+    return all;
+}
+
+void GpuScene::add_launches(const Rays& rays, layout::TraceParameters parameters, const Top& top,
+                            std::vector<RayTracingPipeline::Launch>& all) const {
+    const auto end = static_cast<uint32_t>(std::min<size_t>(rays.rays.size(), top.end_ray));
+    if (top.first_ray >= end) return;
+    const uint32_t count = end - top.first_ray;
     // Pictures are launched in their own shape, which keeps neighbouring rays together on GPUs. Other sets
     // have neighbours only along the list: in a launch of another shape, tiles of it would mix far rays.
     constexpr uint32_t longest_row = 1u << 16;
-    const bool shaped = rays.width != 0 && uint64_t(rays.width) * rays.height >= count;
+    const bool shaped = rays.width != 0 && uint64_t(rays.width) * rays.height >= count && tops_.size() == 1;
     const uint32_t width = shaped ? rays.width : std::min(count, longest_row);
     const uint32_t height = (count + width - 1) / width;
     const auto rows = static_cast<uint32_t>(
         std::clamp<uint64_t>(device_.info().max_launch / width, 1, height));  // of one launch
-    std::vector<RayTracingPipeline::Launch> all;
+    parameters.scene = top.structure.address();
+    parameters.ray_count = end;
     for (uint32_t row = 0; row < height; row += rows) {
-        parameters.first_ray = row * width;
+        parameters.first_ray = top.first_ray + row * width;
         RayTracingPipeline::Launch& launch = all.emplace_back();
         launch.push_constants.resize(sizeof parameters);
         std::memcpy(launch.push_constants.data(), &parameters, sizeof parameters);
         launch.width = width;
         launch.height = std::min(rows, height - row);
     }
-    return all;
 }
 
 TraceResult GpuScene::trace(const Rays& rays, const TraceOptions& options) const {
@@ -178,9 +229,8 @@ TraceResult GpuScene::trace(const Rays& rays, const TraceOptions& options) const
     if (normals_)
         normal_buffer =
             Buffer(device_, std::max<size_t>(16, valid.size() * sizeof(glm::vec3)), Buffer::Use::storage);
-    layout::TraceParameters parameters{top_.address(), ray_buffer.address(), hit_buffer.address(),
-                                       normal_buffer.address(), rows_.address()};
-    parameters.ray_count = static_cast<uint32_t>(valid.size());
+    layout::TraceParameters parameters{0, ray_buffer.address(), hit_buffer.address(), normal_buffer.address(),
+                                       rows_.address()};
     parameters.ray_flags = options.shadow ? shadow_flags : 0;
     parameters.is_shadow = options.shadow ? 1 : 0;
     const auto all = launches(rays, parameters);

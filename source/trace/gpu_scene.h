@@ -34,6 +34,9 @@ struct SceneOptions {
     float ray_extent = 1.0f;
     /// Normals will be asked for: keeps what they need.
     bool normals = false;
+    /// Not 0: ray i meets the curves [i n, (i + 1) n) alone, n being this number, and only what is near them
+    /// in the list: every structure is traced with its own rays only. For one model, not moved.
+    uint32_t curves_of_a_ray = 0;
     /// Largest leaf count of one structure; 0: what the device allows. Tests make it small.
     uint64_t max_leaves = 0;
 };
@@ -82,19 +85,29 @@ class GpuScene {
         Buffer leaves, leaf_records, curve_records, shading_records;
     };
 
+    /// What a range of rays is traced through.
+    struct Top {
+        AccelerationStructure structure;
+        uint32_t first_ray = 0, end_ray = 0xFFFFFFFFu;
+    };
+
     void add_model(const SceneModel& model, uint32_t index, const SceneOptions& options);
     void add_instances(std::span<const SceneInstance> instances, const std::vector<SceneModel>& models);
+    void add_tops(std::span<const InstanceInput> inputs, const std::vector<SceneModel>& models);
     void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants);
     std::vector<RayTracingPipeline::Launch> launches(const Rays& rays,
                                                      layout::TraceParameters parameters) const;
+    void add_launches(const Rays& rays, layout::TraceParameters parameters, const Top& top,
+                      std::vector<RayTracingPipeline::Launch>& all) const;
 
     Device device_;
     bool normals_ = false;
+    uint32_t curves_of_a_ray_ = 0;
     bool has_leaf_table_ = true;
     std::vector<Part> parts_;
     std::vector<ModelBuffers> model_buffers_;
     Buffer rows_;
-    AccelerationStructure top_;
+    std::vector<Top> tops_;
     std::optional<RayTracingPipeline> pipeline_;  // none for an empty scene
     SceneCost cost_;
 };

@@ -27,6 +27,8 @@ class TraceDevice {
     const std::string& name() const { return info_.name; }
     /// The Vulkan device; for the C++ versions a name, a driver and the kind "cpu".
     const DeviceInfo& info() const { return info_; }
+    /// The Vulkan device; none for the C++ versions.
+    const Device* gpu() const { return gpu_.get(); }
     bool has_validation() const;
     /// Throws Error (device_lost) naming the first message when the validation layers said anything.
     void check_validation() const;

@@ -1,0 +1,189 @@
+// strandlab stress: every primitive on families of hard pairs of a ray and a strand.
+#include "base/error.h"
+#include "base/file.h"
+#include "base/progress.h"
+#include "commands/arguments.h"
+#include "commands/command.h"
+#include "commands/stress_report.h"
+#include "trace/scene_reference.h"
+#include "trace/trace_device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace strandlab {
+namespace {
+
+struct Options {
+    PrimitiveArguments primitives;
+    std::vector<std::string> families, devices;
+    double pairs = 20000;
+    uint64_t seed = default_stress_seed;
+    std::string json, heat_map, worst_folder;
+    uint32_t worst = 10;
+};
+
+/// Pairs that are in memory at a time.
+constexpr uint64_t chunk_size = 20000;
+
+/// Where intersectors run; opened once.
+using Devices = std::vector<std::unique_ptr<TraceDevice>>;
+
+Devices open_devices(std::vector<std::string> names) {
+    if (names.empty()) names = {"cpu-float", "cpu-double"};
+    Devices devices;
+    for (const std::string& name : names)
+        devices.push_back(std::make_unique<TraceDevice>(DeviceOptions{name, false}));
+    return devices;
+}
+
+/// What the C++ float version says is wanted by every Vulkan device: computed at most once.
+class PlainHits {
+  public:
+    PlainHits(const Primitive& primitive, const Geometry& geometry, const StressPairs& pairs)
+        : primitive_(primitive), geometry_(geometry), pairs_(pairs) {}
+    const std::vector<StressHit>& get() {
+        if (hits_.empty()) hits_ = intersect_pairs(primitive_, geometry_, pairs_, Precision::single, boxes_);
+        return hits_;
+    }
+    BoxCheck boxes() const { return boxes_; }
+
+  private:
+    const Primitive& primitive_;
+    const Geometry& geometry_;
+    const StressPairs& pairs_;
+    std::vector<StressHit> hits_;
+    BoxCheck boxes_;
+};
+
+/// One primitive on every device; cells: one for each device.
+void run_choice(const PrimitiveChoice& choice, const Curves& curves, const StressPairs& pairs,
+                const Devices& devices, size_t keep, std::span<StressCell> cells) {
+    const Primitive& primitive = *choice.primitive;
+    const Geometry geometry = primitive.build(curves, choice.options);
+    PlainHits plain(primitive, geometry, pairs);
+    for (size_t d = 0; d < devices.size(); ++d) {
+        StressTally& tally = cells[d].tally;
+        if (const Device* gpu = devices[d]->gpu()) {
+            const std::vector<StressHit> hits = trace_pairs(*gpu, primitive, geometry, pairs);
+            add_errors(pairs, hits, keep, tally);
+            add_difference(pairs, hits, plain.get(), tally);
+        } else if (cells[d].precise) {
+            const auto hits = intersect_pairs(primitive, geometry, pairs, Precision::precise, tally.boxes);
+            add_errors(pairs, hits, keep, tally);
+        } else {
+            add_errors(pairs, plain.get(), keep, tally);
+            tally.boxes.add(plain.boxes());
+        }
+    }
+}
+
+/// All primitives on some pairs of one family. Primitives with the same surface share rays and answers.
+void run_chunk(const StressRange& range, std::span<const PrimitiveChoice> choices, const Devices& devices,
+               size_t keep, std::span<StressCell> cells, Progress& progress) {
+    const Curves curves = stress_strands(range);
+    std::vector<std::pair<uint64_t, StressPairs>> known;  // by the hash of their surface
+    for (size_t c = 0; c < choices.size(); ++c) {
+        const PrimitiveChoice& choice = choices[c];
+        const Surface surface = choice.primitive->surface(curves, choice.options);
+        const uint64_t key = hash(surface);
+        auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == key; });
+        if (found == known.end()) found = known.insert(known.end(), {key, stress_pairs(range, surface)});
+        run_choice(choice, curves, found->second, devices, keep, cells.subspan(c * devices.size()));
+        progress.tick(range.count);
+    }
+}
+
+std::vector<StressCell> make_cells(const StressFamily& family, std::span<const PrimitiveChoice> choices,
+                                   const Devices& devices) {
+    std::vector<StressCell> cells;
+    for (const PrimitiveChoice& choice : choices)
+        for (const auto& device : devices) {
+            StressCell& cell = cells.emplace_back();
+            cell.family = &family;
+            cell.primitive = choice.primitive;
+            cell.label = choice.label();
+            cell.device = device->name();
+            cell.precise = device->name() == "cpu-double";
+        }
+    return cells;
+}
+
+std::vector<const StressFamily*> chosen_families(const std::vector<std::string>& names) {
+    std::vector<const StressFamily*> families;
+    for (const std::string& name : names) families.push_back(&stress_family(name));
+    if (names.empty())
+        for (const StressFamily& family : stress_families()) families.push_back(&family);
+    return families;
+}
+
+int run(const Options& options) {
+    if (!(options.pairs >= 1 && options.pairs <= 1e15))
+        fail(ExitCode::usage, "--pairs {}: must be a number from 1 to 1e15", options.pairs);
+    const auto families = chosen_families(options.families);
+    const std::vector<PrimitiveChoice> choices = options.primitives.choices();
+    const Devices devices = open_devices(options.devices);
+    const auto count = static_cast<uint64_t>(options.pairs);
+    const size_t keep = options.worst_folder.empty() ? 0 : options.worst;
+    std::vector<StressCell> all;
+    {
+        Progress progress("stress", count * families.size() * choices.size());
+        for (const StressFamily* family : families) {
+            std::vector<StressCell> cells = make_cells(*family, choices, devices);
+            for (uint64_t first = 0; first < count; first += chunk_size)
+                run_chunk({family, options.seed, first, std::min(chunk_size, count - first)}, choices,
+                          devices, keep, cells, progress);
+            for (StressCell& cell : cells) {
+                cell.judgement = judge(cell.tally, stress_limits(cell.primitive->name, *family, cell.precise),
+                                       *family, cell.precise);
+                if (keep > 0) write_worst(cell, options.seed, options.worst_folder);
+                all.push_back(std::move(cell));
+            }
+        }
+    }
+    std::fputs(stress_table(all).c_str(), stdout);
+    std::fputs(stress_summary(all).c_str(), stdout);
+    if (!options.json.empty()) write_file(options.json, stress_json(all, options.seed));
+    if (!options.heat_map.empty()) write_file(options.heat_map, stress_heat_map(all));
+    const bool fails = std::any_of(all.begin(), all.end(), [](const StressCell& cell) {
+        return cell.judgement.verdict == StressVerdict::fails;
+    });
+    return static_cast<int>(fails ? ExitCode::threshold : ExitCode::ok);
+}
+
+RunCommand declare(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    options->primitives.add_to(app, true);
+    app.add_option("--family", options->families, "family of pairs, repeatable (default: all, see below)")
+        ->allow_extra_args(false);
+    app.add_option("--device", options->devices,
+                   "cpu-float, cpu-double or a Vulkan device (see strandlab info), repeatable (default: the "
+                   "first two)")
+        ->allow_extra_args(false);
+    app.add_option("--pairs", options->pairs, "pairs of every family; 1e8 takes a night")
+        ->capture_default_str();
+    app.add_option("--seed", options->seed, "other pairs for other seeds")->capture_default_str();
+    app.add_option("--json", options->json, "write one JSON object a line and cell");
+    app.add_option("--heat-map", options->heat_map, "write family x primitive as a picture (.svg)");
+    app.add_option("--worst-folder", options->worst_folder,
+                   "write the worst pairs as .npy files of curves and rays, for strandlab trace");
+    app.add_option("--worst", options->worst, "how many of each cell")->capture_default_str();
+    return [options] { return run(*options); };
+}
+
+constexpr const char* examples =
+    "  strandlab stress                                      all primitives on this processor\n"
+    "  strandlab stress --device llvmpipe --primitive lss    one on a Vulkan device\n"
+    "  strandlab stress --family grazing --pairs 1e6 --json grazing.jsonl\n"
+    "  strandlab stress --primitive rocaps:variant=published --worst-folder worst --worst 3\n";
+
+}  // namespace
+
+Command stress_command() {
+    return {"stress", "intersectors on hard pairs of ray and strand, against the oracle of their own surface",
+            std::string(examples) + "\n" + stress_family_help(), declare};
+}
+
+}  // namespace strandlab

@@ -1,0 +1,156 @@
+#include "commands/stress_report.h"
+
+#include "base/error.h"
+#include "base/npy.h"
+#include "measure/statistics.h"
+#include "report/result_json.h"
+#include "report/table.h"
+#include "report/text_format.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace strandlab {
+namespace {
+
+std::string_view name_of(StressVerdict verdict) {
+    switch (verdict) {
+        case StressVerdict::holds: return "holds";
+        case StressVerdict::fails: return "FAILS";
+        case StressVerdict::not_judged: break;
+    }
+    return "not judged";
+}
+
+std::string percentile_text(const LogHistogram& values, double q) {
+    return values.count() == 0 ? "-" : significant(values.quantile(q), 2);
+}
+
+/// "cpu-float", or a device's name without what follows in brackets.
+std::string short_name(const std::string& device) { return device.substr(0, device.find(" (")); }
+
+nlohmann::ordered_json rate_json(uint64_t count, uint64_t trials) {
+    const Interval bounds = binomial_bounds(count, trials);
+    return {{"count", count},
+            {"trials", trials},
+            {"bounds_95", {json_number(bounds.low), json_number(bounds.high)}}};
+}
+
+nlohmann::ordered_json cell_json(const StressCell& cell, uint64_t seed) {
+    const StressTally& t = cell.tally;
+    nlohmann::ordered_json object;
+    object["family"] = cell.family->name;
+    object["primitive"] = cell.label;
+    object["device"] = cell.device;
+    object["seed"] = seed;
+    object["pairs"] = t.pairs;
+    object["decisive_hits"] = t.hits;
+    object["decisive_misses"] = t.misses;
+    object["undecided"] = t.undecided();
+    object["margin_p50"] = json_number(t.margin.quantile(0.5));
+    object["false_misses"] = rate_json(t.false_misses, t.hits);
+    object["false_hits"] = rate_json(t.false_hits, t.misses);
+    object["wrong_places"] = rate_json(t.wrong_hits, t.hits);
+    object["nan_hits"] = t.nan_hits;
+    for (const auto& [key, q] :
+         {std::pair("distance_p50", 0.5), {"distance_p99", 0.99}, {"distance_p999", 0.999}})
+        object[key] = json_number(t.distance.quantile(q));
+    object["distance_max"] = json_number(t.distance.max());
+    object["ulp_p99"] = json_number(t.floor.quantile(0.99));
+    object["lost_by_boxes"] = rate_json(t.boxes.lost, t.boxes.trials);
+    object["differs_from_cpu_float"] =
+        t.compared == 0 ? nlohmann::ordered_json() : rate_json(t.differing, t.compared);
+    object["verdict"] = name_of(cell.judgement.verdict);
+    object["reason"] = cell.judgement.text;
+    return object;
+}
+
+/// A name that a file may have.
+std::string file_name(std::string text) {
+    for (char& c : text)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+    return text;
+}
+
+}  // namespace
+
+std::string stress_family_help() {
+    std::string text = "Families (--family NAME):\n";
+    for (const StressFamily& family : stress_families())
+        text += fmt::format("  {:<14} {}{}\n", family.name, family.help,
+                            family.is_resolvable() ? "" : " (reported, not judged)");
+    return text;
+}
+
+std::string stress_table(std::span<const StressCell> cells) {
+    Table table({{"family", "", true},
+                 {"primitive", "", true},
+                 {"device", "", true},
+                 {"hits", "decisive"},
+                 {"misses", "decisive"},
+                 {"undecided"},
+                 {"false miss"},
+                 {"false hit"},
+                 {"wrong place"},
+                 {"dt p50", "radii"},
+                 {"dt p99", "radii"},
+                 {"lost by box"},
+                 {"not as C++"},
+                 {"verdict", "", true}},
+                3);
+    for (const StressCell& cell : cells) {
+        const StressTally& t = cell.tally;
+        table.add_row(
+            {cell.family->name, cell.label, short_name(cell.device), grouped(t.hits), grouped(t.misses),
+             percent(double(t.undecided()) / double(std::max<uint64_t>(1, t.pairs))), grouped(t.false_misses),
+             grouped(t.false_hits), grouped(t.wrong_hits), percentile_text(t.distance, 0.5),
+             percentile_text(t.distance, 0.99), grouped(t.boxes.lost),
+             t.compared == 0 ? "-" : grouped(t.differing), std::string(name_of(cell.judgement.verdict))});
+    }
+    return table.to_string(standard_output_style());
+}
+
+std::string stress_summary(std::span<const StressCell> cells) {
+    uint64_t holds = 0, fails = 0, not_judged = 0;
+    BoxCheck leaves, rays;
+    std::string failures;
+    for (const StressCell& cell : cells) {
+        const StressVerdict verdict = cell.judgement.verdict;
+        ++(verdict == StressVerdict::holds ? holds : verdict == StressVerdict::fails ? fails : not_judged);
+        (cell.tally.compared == 0 ? leaves : rays).add(cell.tally.boxes);
+        if (verdict == StressVerdict::fails)
+            failures += fmt::format("FAILS: {}, {}, {}: {}\n", cell.family->name, cell.label,
+                                    short_name(cell.device), cell.judgement.text);
+    }
+    std::string text = fmt::format("\n{} hold, {} fail, {} are not judged\n", holds, fails, not_judged);
+    if (leaves.trials > 0)
+        text += fmt::format("boxes: {} of {} leaf hits lost by a slab test in float\n", grouped(leaves.lost),
+                            grouped(leaves.trials));
+    if (rays.trials > 0)
+        text += fmt::format("boxes: {} of {} hits of the C++ float version not found on the device\n",
+                            grouped(rays.lost), grouped(rays.trials));
+    return text + failures;
+}
+
+std::string stress_json(std::span<const StressCell> cells, uint64_t seed) {
+    std::string lines;
+    for (const StressCell& cell : cells) lines += to_line(cell_json(cell, seed)) + "\n";
+    return lines;
+}
+
+void write_worst(const StressCell& cell, uint64_t seed, const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(ExitCode::bad_input, "{}: cannot be made ({})", folder, error.message());
+    for (const WorstPair& pair : cell.tally.worst) {
+        const std::string stem =
+            fmt::format("{}/{}.{}.{}.{}", folder, file_name(cell.family->name), file_name(cell.label),
+                        file_name(short_name(cell.device)), pair.index);
+        const std::vector<Curve> strand = make_strand(*cell.family, seed, pair.index);
+        write_npy<Curve>(stem + ".curves.npy", {"<f4", {4, 4}}, strand);
+        write_npy(stem + ".rays.npy", {"<f4", {8}}, &pair.ray, 1);
+    }
+}
+
+}  // namespace strandlab
