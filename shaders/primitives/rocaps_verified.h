@@ -256,6 +256,7 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     c.p3 = real4(to_frame(frame, real3(c3)), c3.w);
     real4 largest = max(max(abs(c.p0), abs(c.p1)), max(abs(c.p2), abs(c.p3)));
     real z_max = (tmax - frame.t_foot) / frame.inv_length;
+    if (!(z_max < real(3e38))) z_max = real(3e38);  // long directions: beyond what stands for "no entry" yet
 
     VerifiedSearch search;
     search.slack = real(4) * real_epsilon * max(max(largest.x, largest.y), max(largest.z, largest.w));
