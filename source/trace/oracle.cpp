@@ -102,6 +102,7 @@ class Oracle::Query {
         });
     }
     const ReferenceHit& result() const { return best_; }
+    bool stays_clear() const { return stays_clear_; }
 
   private:
     /// Whether a hit at t replaces the best one so far.
@@ -124,6 +125,7 @@ class Oracle::Query {
         const Real b =
             leaf.part + 1 == leaf.parts ? Real(1) : Real(range.local(double(leaf.part + 1) / leaf.parts));
         if (misses(s, a, b)) return;
+        stays_clear_ = false;
         // Whatever part of the piece the ray came through, the piece is examined as a whole, once.
         recent_[next_recent_] = leaf.primitive;
         next_recent_ = (next_recent_ + 1) % recent_.size();
@@ -149,6 +151,7 @@ class Oracle::Query {
     }
 
     void visit_triangle(uint32_t primitive) {
+        stays_clear_ = false;
         const SurfaceTriangle& triangle = surface_.triangles[primitive - surface_.pieces.size()];
         const std::array<glm::dvec3, 3> vertices = varied_vertices(triangle, options_);
         const Frame<Real> frame(ray_, vertices[0], (vertices[0] + vertices[1] + vertices[2]) / 3.0);
@@ -180,6 +183,7 @@ class Oracle::Query {
     const OracleOptions& options_;
     std::array<uint32_t, 8> recent_;
     size_t next_recent_ = 0;
+    bool stays_clear_ = true;
     ReferenceHit best_;
     uint32_t best_primitive_ = no_curve;
 };
@@ -192,6 +196,18 @@ ReferenceHit Oracle::trace(const ExactRay& ray, const OracleOptions& options) co
 ReferenceHit Oracle::trace(const Ray& ray, const OracleOptions& options) const {
     if (!is_valid(ray)) return {};
     return trace(ExactRay{glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.tmin, ray.tmax}, options);
+}
+
+ReferenceHit Oracle::trace(const Ray& ray, const OracleOptions& options, bool& stays_clear) const {
+    stays_clear = true;
+    if (!is_valid(ray)) return {};
+    const ExactRay exact{glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.tmin, ray.tmax};
+    const auto ask = [&](const auto& query) {
+        stays_clear = query.stays_clear();
+        return query.result();
+    };
+    return options.extended ? ask(Query<long double>(*this, exact, options))
+                            : ask(Query<double>(*this, exact, options));
 }
 
 std::vector<ReferenceHit> Oracle::trace(std::span<const Ray> rays) const {

@@ -43,6 +43,9 @@ class Oracle {
     ReferenceHit trace(const Ray& ray) const { return trace(ray, options_); }
     /// With other options, whose surface must lie within that of the construction.
     ReferenceHit trace(const Ray& ray, const OracleOptions& options) const;
+    /// The same; stays_clear: the ray's line meets no ball of any piece on its way and comes near no
+    /// triangle, so that with smaller radii and the ends drawn in it misses whatever the surface is.
+    ReferenceHit trace(const Ray& ray, const OracleOptions& options, bool& stays_clear) const;
     /// All rays, in parallel.
     std::vector<ReferenceHit> trace(std::span<const Ray> rays) const;
     /// A ray in double precision; numbers must be finite, the direction not zero, 0 <= tmin <= tmax.

@@ -46,10 +46,15 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
     reference.decisive_place.resize(rays.size());
     Progress progress("reference hits", rays.size());
     parallel_for(rays.size(), [&](size_t i) {
-        const ReferenceHit hit = oracle.trace(rays[i], OracleOptions{});
+        bool stays_clear = false;
+        const ReferenceHit outer = oracle.trace(rays[i], larger, stays_clear);
+        if (stays_clear) {  // of the largest surface, hence of all three
+            reference.decisive[i] = reference.decisive_place[i] = 1;
+            return;
+        }
+        reference.hits[i] = oracle.trace(rays[i], OracleOptions{});
         const Decided is_decided =
-            decided(rays[i], curves, hit, oracle.trace(rays[i], larger), oracle.trace(rays[i], smaller));
-        reference.hits[i] = hit;
+            decided(rays[i], curves, reference.hits[i], outer, oracle.trace(rays[i], smaller));
         reference.decisive[i] = is_decided.strand;
         reference.decisive_place[i] = is_decided.place;
         progress.tick();

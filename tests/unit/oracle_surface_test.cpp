@@ -195,6 +195,37 @@ TEST(OracleReference, DecisiveRays) {
     for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(reference.hits[i].is_hit(), hits[i]) << i;
 }
 
+TEST(OracleReference, IsWhatThreeTracesSay) {
+    // Rays that stay clear of the larger surface are not traced against the others.
+    const DecisiveMargin margin;
+    const OracleOptions larger{1 + margin.radius, margin.ulps, margin.ends};
+    const OracleOptions smaller{1 - margin.radius, margin.ulps, -margin.ends};
+    for (const Sweep sweep : {Sweep::sphere, Sweep::disc})
+        for (const Caps caps : {Caps::round, Caps::open, Caps::flat}) {
+            size_t clear_rays = 0;
+            for (size_t i = 0; i < 500; ++i) {
+                Random random(61, 0, i);
+                const Curve curve = random_curve(static_cast<Family>(i % 7), random);
+                const Surface surface = surface_of(curve, sweep, caps);
+                const Oracle oracle(surface, larger);
+                const Ray ray = aimed_ray(curve, random);
+                const Reference reference = make_reference(surface, curves_of(curve), {&ray, 1});
+                const ReferenceHit hit = oracle.trace(ray, OracleOptions{});
+                const Decided expected = decided(ray, curves_of(curve), hit, oracle.trace(ray, larger),
+                                                 oracle.trace(ray, smaller));
+                EXPECT_EQ(reference.hits[0].t, hit.t);
+                EXPECT_EQ(reference.hits[0].starts_inside, hit.starts_inside);
+                EXPECT_EQ(reference.decisive[0] != 0, expected.strand);
+                EXPECT_EQ(reference.decisive_place[0] != 0, expected.place);
+                bool stays_clear = false;
+                oracle.trace(ray, larger, stays_clear);
+                clear_rays += stays_clear;
+            }
+            EXPECT_GT(clear_rays, 50u);
+            EXPECT_LT(clear_rays, 300u);
+        }
+}
+
 TEST(SceneOracle, RefusesWhatItCannotPlace) {
     const Surface surface = strip();
     const SurfaceInstance unknown{1, glm::mat4x3(1.0f), 0}, flat{0, glm::mat4x3(0.0f), 0};
