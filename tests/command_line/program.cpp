@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -10,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace strandlab::testing_tools {
@@ -98,9 +100,21 @@ Outcome CommandLineTest::run_on_terminal(const Arguments& arguments, const Envir
     return outcome;
 }
 
-pid_t CommandLineTest::start(const Arguments& arguments) const {
+Outcome CommandLineTest::run_for_a_second(const Arguments& arguments, const Environment& environment) const {
+    const pid_t process = start(arguments, environment);
+    siginfo_t ended{};
+    for (int tries = 0; tries < 100 && ended.si_pid == 0; ++tries) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    if (ended.si_pid == 0) ::kill(process, SIGKILL);
+    const int code = exit_code_of(process);
+    return {code, contents(path("stdout.txt")), contents(path("stderr.txt"))};
+}
+
+pid_t CommandLineTest::start(const Arguments& arguments, const Environment& environment) const {
     const int output = open_new(path("stdout.txt")), log = open_new(path("stderr.txt"));
-    const pid_t process = launch(arguments, {}, folder_.path(), output, log);
+    const pid_t process = launch(arguments, environment, folder_.path(), output, log);
     ::close(output);
     ::close(log);
     return process;

@@ -30,10 +30,12 @@ extern const Environment no_vulkan;
 class CommandLineTest : public testing::Test {
   protected:
     Outcome run(const Arguments& arguments, const Environment& environment = {}) const;
+    /// Ends the run after a second: whatever was wrong with its arguments it has said by then.
+    Outcome run_for_a_second(const Arguments& arguments, const Environment& environment = {}) const;
     /// Standard output and error are one terminal (what it shows is `output`).
     Outcome run_on_terminal(const Arguments& arguments, const Environment& environment = {}) const;
     /// Starts a run and returns its process, which the caller waits for.
-    pid_t start(const Arguments& arguments) const;
+    pid_t start(const Arguments& arguments, const Environment& environment = {}) const;
 
     std::string path(const std::string& name) const { return folder_ / name; }
     void write(const std::string& name, const std::string& bytes) const;

@@ -2,6 +2,7 @@
 #include "command_line/program.h"
 
 #include <algorithm>
+#include <csignal>
 #include <sstream>
 
 namespace strandlab::testing_tools {
@@ -158,8 +159,8 @@ TEST_F(UsageTest, EveryCommandHasHelpWithExamplesThatParse) {
     EXPECT_EQ(overview.log, "");
     EXPECT_TRUE(contains(overview.output, "Exit codes: 0 ok"));
     const std::vector<std::string> commands = commands_in(overview.output);
-    EXPECT_EQ(commands, (std::vector<std::string>{"bench", "validate", "trace", "compare", "render",
-                                                  "convert", "info"}));
+    for (const char* name : {"bench", "validate", "trace", "compare", "render", "convert", "info"})
+        EXPECT_NE(std::find(commands.begin(), commands.end(), name), commands.end()) << name;
     for (const std::string& command : commands) {
         const Outcome help = run({command, "--help"});
         expect_success(help);
@@ -170,13 +171,14 @@ TEST_F(UsageTest, EveryCommandHasHelpWithExamplesThatParse) {
         for (std::string line; std::getline(lines, line);) {
             if (line.rfind("  strandlab ", 0) != 0) continue;
             ++examples;
-            Arguments words = words_of(line);
+            // What two spaces set apart is a remark.
+            Arguments words = words_of(line.substr(0, line.find("  ", 2)));
             words.erase(words.begin());
             EXPECT_EQ(words.front(), command) << line;
-            // Without a device and without the files there are only errors left that are none of usage.
-            const Outcome outcome = run(words, no_vulkan);
-            EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 5) << line << "\n"
-                                                                                     << outcome.log;
+            // Without a device and without the files only errors are left that are none of usage.
+            const Outcome outcome = run_for_a_second(words, no_vulkan);
+            EXPECT_NE(outcome.code, 2) << line << "\n" << outcome.log;
+            EXPECT_TRUE(outcome.code <= 5 || outcome.code == 128 + SIGKILL) << line << "\n" << outcome.log;
         }
         EXPECT_GE(examples, 1u) << command;
     }
