@@ -5,6 +5,7 @@
 #include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/stress_report.h"
+#include "trace/embree_reference.h"
 #include "trace/scene_reference.h"
 #include "trace/trace_device.h"
 
@@ -19,7 +20,7 @@ namespace {
 struct Options {
     PrimitiveArguments primitives;
     std::vector<std::string> families, devices;
-    double pairs = 20000;
+    double pairs = 20000, embree_pairs = 2000;
     uint64_t seed = default_stress_seed;
     std::string json, heat_map, worst_folder;
     uint32_t worst = 10;
@@ -111,6 +112,23 @@ std::vector<StressCell> make_cells(const StressFamily& family, std::span<const P
     return cells;
 }
 
+/// Embree's round curves on the swept discs that they are: a row to compare with, not to judge.
+StressCell embree_cell(const StressFamily& family, uint64_t seed, uint64_t count, size_t keep) {
+    const PrimitiveChoice discs = parse_primitive("prhi", "open");
+    StressCell cell;
+    cell.family = &family;
+    cell.label = "Embree " + embree_version();
+    cell.device = "round Bezier";
+    for (uint64_t first = 0; first < count; first += chunk_size) {
+        const StressRange range{&family, seed, first, std::min(chunk_size, count - first)};
+        const Surface surface = discs.primitive->surface(stress_strands(range), discs.options);
+        const StressPairs pairs = stress_pairs(range, surface);
+        add_errors(pairs, trace_pairs_with_embree(surface, pairs), keep, cell.tally);
+    }
+    cell.judgement.text = "a second opinion, with limits of its own";
+    return cell;
+}
+
 std::vector<const StressFamily*> chosen_families(const std::vector<std::string>& names) {
     std::vector<const StressFamily*> families;
     for (const std::string& name : names) families.push_back(&stress_family(name));
@@ -126,6 +144,8 @@ int run(const Options& options) {
     const std::vector<PrimitiveChoice> choices = options.primitives.choices();
     const Devices devices = open_devices(options.devices);
     const auto count = static_cast<uint64_t>(options.pairs);
+    const uint64_t embree_count =
+        embree_available() ? static_cast<uint64_t>(std::clamp(options.embree_pairs, 0.0, 1e15)) : 0;
     const size_t keep = options.worst_folder.empty() ? 0 : options.worst;
     std::vector<StressCell> all;
     {
@@ -141,6 +161,7 @@ int run(const Options& options) {
                 if (keep > 0) write_worst(cell, options.seed, options.worst_folder);
                 all.push_back(std::move(cell));
             }
+            if (embree_count > 0) all.push_back(embree_cell(*family, options.seed, embree_count, keep));
         }
     }
     std::fputs(stress_table(all).c_str(), stdout);
@@ -163,6 +184,9 @@ RunCommand declare(CLI::App& app) {
                    "first two)")
         ->allow_extra_args(false);
     app.add_option("--pairs", options->pairs, "pairs of every family; 1e8 takes a night")
+        ->capture_default_str();
+    app.add_option("--embree-pairs", options->embree_pairs,
+                   "pairs of every family for Embree's curves, where built in (0: none)")
         ->capture_default_str();
     app.add_option("--seed", options->seed, "other pairs for other seeds")->capture_default_str();
     app.add_option("--json", options->json, "write one JSON object a line and cell");

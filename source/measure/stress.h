@@ -51,6 +51,13 @@ struct StressHit {
     bool is_hit = false;
 };
 
+/// Strand after strand through Embree's curves (a scene each), which decide by their own definition. Surface:
+/// that of the pairs. Where Embree is not built in: Error (usage).
+std::vector<StressHit> trace_pairs_with_embree(const Surface& surface, const StressPairs& pairs);
+
+/// The surface cut into the parts of single strands of so many curves each.
+std::vector<Surface> strand_surfaces(const Surface& surface, uint64_t strands, uint32_t curves);
+
 /// Hits that a box had to let through, and those that it lost.
 struct BoxCheck {
     uint64_t lost = 0, trials = 0;

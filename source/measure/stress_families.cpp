@@ -57,6 +57,7 @@ std::vector<Family> shapes() {
          .radius_high = 0.6,
          .taper_low = 0,
          .taper_high = 0.2,
+         .lateral_high = 2.5,
          .shape = Family::Shape::nested},
         {.name = "fat curl",
          .help = "radius beyond the radius of curvature",

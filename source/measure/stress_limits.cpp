@@ -19,7 +19,8 @@ struct Row {
 constexpr std::string_view thin = "a radius of 1e-5 lengths is 80 ulp of the coordinates";
 
 // The figures are those of a prototype of each method on 80,000 pairs a family; structured rays are held to
-// what the lattice itself gave. Distances of thin and of far pairs are those of a t rounded to float.
+// what the lattice itself gave, the few hits of rays that start inside to the distances of gentle curves.
+// Distances of thin and of far pairs are those of a t rounded to float.
 constexpr Row lss_rows[] = {
     {"gentle", {0, 0, 0, 6.7e-6, 1.3e-4}},
     {"curl", {0, 0, 0, 5.7e-6, 1.2e-4}},
@@ -59,10 +60,10 @@ constexpr Row rocaps_rows[] = {
     {"far 1e4", {0, 0, 0, 3.9e-2, 0.41}},
     {"far 1e6", {0, 0, 0, 1.2, 19}},
     {"offset 1e4", {0, 0, 0, 1.3e-5, 1.9e-4}},
-    {"inside", {0, 2.5e-5, 0, 2.4e-5, 5.6e-5, "the far end of a run of capsules is known to 1e-3 radii"}},
+    {"inside", {0, 2.5e-5, 0, 1.3e-5, 1.9e-4, "the far end of a run of capsules is known to 1e-3 radii"}},
     {"degenerate", {0, 0, 0, 1.4e-5, 2.4e-4}},
     {"fat curl", {4.5e-5, 0, 0, 2e-7, 1.1e-4, local_minimum}},
-    {"structured", {0, 4.9e-4, 0, 4e-6, 4e-5, "rays along the axis of a cone into its tip of radius 0"}},
+    {"structured", {0, 0, 0, 4e-6, 4e-5}},
 };
 
 constexpr std::string_view overlapping =
@@ -83,7 +84,7 @@ constexpr Row prhi_rows[] = {
     {"far 1e4", {0, 0, 0, 3.9e-2, 0.41}},
     {"far 1e6", {0, 0, 0, 1.2, 19}},
     {"offset 1e4", {0, 0, 0, 1.2e-5, 1.9e-4}},
-    {"inside", {0, 0, 0, 8.0e-6, 2.9e-4}},
+    {"inside", {0, 0, 0, 1.2e-5, 2.9e-4}},
     {"degenerate", {6.0e-4, 0, 1.9e-5, 1.1e-5, 1.8e-4, "within cusps the discs turn about a point"}},
     {"fat curl", {4.9e-2, 0, 4.3e-5, 5.8e-7, 6.9e-5, overlapping}},
     {"structured", {0, 0, 0, 1e-5, 1e-4}},
@@ -99,6 +100,7 @@ std::span<const Row> rows_of(std::string_view primitive) {
 /// Families in which a swept disc is no surface that could be right or wrong.
 std::string_view undefined_disc(const StressFamily& family) {
     if (family.shape == StressFamily::Shape::point) return "discs have no plane where all points are equal";
+    if (family.kink > 0) return "open discs leave a wedge at a kink, whose edges the margin does not move";
     if (family.shape == StressFamily::Shape::nested)
         return "|r'| exceeds |C'|: which side of a disc is its front is not defined";
     return {};

@@ -15,16 +15,6 @@ constexpr double radius_margin = 1e-3, ulp_margin = 8, end_margin = 1e-3, place_
 /// A hit whose radius is below this share of the strand's largest has no place that could be right.
 constexpr double vanishing = 1e-6;
 
-/// A surface cut into the parts of single strands.
-std::vector<Surface> parts_of(const Surface& surface, uint64_t count, uint32_t curves) {
-    std::vector<Surface> parts(count);
-    for (Surface& part : parts) part.sweep = surface.sweep, part.caps = surface.caps;
-    for (const SurfacePiece& piece : surface.pieces) parts[piece.curve / curves].pieces.push_back(piece);
-    for (const SurfaceTriangle& triangle : surface.triangles)
-        parts[triangle.curve / curves].triangles.push_back(triangle);
-    return parts;
-}
-
 CurveD straight(const glm::dvec4& a, const glm::dvec4& b) {
     return {a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b};
 }
@@ -114,6 +104,15 @@ StressAnswer answer(const Surface& part, const Ray& ray) {
 
 }  // namespace
 
+std::vector<Surface> strand_surfaces(const Surface& surface, uint64_t strands, uint32_t curves) {
+    std::vector<Surface> parts(strands);
+    for (Surface& part : parts) part.sweep = surface.sweep, part.caps = surface.caps;
+    for (const SurfacePiece& piece : surface.pieces) parts[piece.curve / curves].pieces.push_back(piece);
+    for (const SurfaceTriangle& triangle : surface.triangles)
+        parts[triangle.curve / curves].triangles.push_back(triangle);
+    return parts;
+}
+
 Curves stress_strands(const StressRange& range) {
     const uint32_t n = range.family->curves;
     Curves curves;
@@ -129,7 +128,7 @@ Curves stress_strands(const StressRange& range) {
 }
 
 StressPairs stress_pairs(const StressRange& range, const Surface& surface) {
-    const std::vector<Surface> parts = parts_of(surface, range.count, range.family->curves);
+    const std::vector<Surface> parts = strand_surfaces(surface, range.count, range.family->curves);
     StressPairs pairs{range, std::vector<Ray>(range.count), std::vector<StressAnswer>(range.count)};
     parallel_for(range.count, [&](size_t i) {
         pairs.rays[i] = make_ray(*range.family, range.seed, range.first + i, targets_of(parts[i]));
