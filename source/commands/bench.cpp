@@ -6,6 +6,7 @@
 #include "commands/bundled_models.h"
 #include "commands/command.h"
 #include "commands/embree_case.h"
+#include "commands/hit_files.h"
 #include "commands/ray_arguments.h"
 #include "commands/usage_error.h"
 #include "report/images.h"
@@ -26,7 +27,7 @@ struct Options {
     RayArguments rays;
     DeviceArguments device;
     uint32_t repeat = 5;
-    std::string json, csv, images, leaf_order = "auto";
+    std::string json, csv, images, save_rays, leaf_order = "auto";
     bool no_embree = false, no_compaction = false, no_normals = false;
 };
 
@@ -69,6 +70,8 @@ class Bench {
         input.options.compact = !options_.no_compaction;
         input.options.normals = !options_.no_normals;
         input.options.ray_extent = object_extent(scene, rays.extent());
+        if (!options_.save_rays.empty())
+            for (const MeasuredRays& set : rays.sets()) write_rays(options_.save_rays, scene.name, set.rays);
         for (const std::vector<ResultRow>& rows : run_cases(input, rays.sets()))
             fmt::print("\n{}", bench_table(rows));
         std::fflush(stdout);
@@ -192,6 +195,8 @@ Command bench_command() {
                     ->check(whole_number(1, 10000));
                 app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
                 app.add_option("--csv", options->csv, "append rows to this file");
+                app.add_option("--save-rays", options->save_rays,
+                               "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
                 app.add_option("--images", options->images,
                                "folder for a picture of every case with primary rays");
                 app.add_option("--leaf-order", options->leaf_order,

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace strandlab {
 namespace {
 
@@ -78,8 +80,11 @@ std::string bench_table(std::span<const ResultRow> rows) {
     std::string text =
         fmt::format("{}: {} strands, {} curves; {} {} rays", first.model.name, grouped(first.model.strands),
                     grouped(first.model.curves), grouped(first.rays.count), first.rays.name);
-    if (first.model_error) {
-        const Comparison& error = *first.model_error;
+    const auto measured = std::find_if(rows.begin(), rows.end(), [](const ResultRow& row) {
+        return row.model_error && row.model_error->rays() > 0;
+    });
+    if (measured != rows.end()) {
+        const Comparison& error = *measured->model_error;
         text += fmt::format("; errors of {} of them ({} decisive, {} start inside, {} on caps)",
                             grouped(error.rays()),
                             percent(error.rays() ? double(error.decisive.rays) / double(error.rays()) : 0),

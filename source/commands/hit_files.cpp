@@ -21,6 +21,12 @@ std::vector<Item> read_column(const std::string& path, const NpyItem& item, size
     return values;
 }
 
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(ExitCode::bad_input, "{}: cannot make the folder: {}", folder, error.message());
+}
+
 }  // namespace
 
 Rays load_ray_file(const std::string& path) {
@@ -31,10 +37,15 @@ Rays load_ray_file(const std::string& path) {
     return std::move(loaded.rays);
 }
 
+void write_rays(const std::string& folder, const std::string& model, const Rays& rays) {
+    make_folder(folder);
+    const std::string set = std::filesystem::path(rays.name).stem().string();
+    write_npy((std::filesystem::path(folder) / (model + "." + set + ".npy")).string(), {"<f4", {8}},
+              std::span<const Ray>(rays.rays));
+}
+
 void write_hits(const std::string& folder, const Hits& hits) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail(ExitCode::bad_input, "{}: cannot make the folder: {}", folder, error.message());
+    make_folder(folder);
     const size_t count = hits.hits.size();
     std::vector<float> t(count), u(count);
     std::vector<int32_t> curve(count);

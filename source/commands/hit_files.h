@@ -1,4 +1,4 @@
-// Hits as other programs exchange them: a folder of .npy files.
+// Rays and hits as other programs exchange them: .npy files.
 #pragma once
 
 #include "scene/hits.h"
@@ -11,6 +11,9 @@ namespace strandlab {
 /// Rays of an .npy file, float32 [M,8]: ox, oy, oz, tmin, dx, dy, dz, tmax. Invalid rays are counted in a
 /// warning and miss.
 Rays load_ray_file(const std::string& path);
+
+/// Writes a named ray set as FOLDER/MODEL.SET.npy in that form, into a folder that is made when missing.
+void write_rays(const std::string& folder, const std::string& model, const Rays& rays);
 
 /// Writes t.npy float32 [M] (+inf is a miss), curve.npy int32 [M] (-1), u.npy float32 [M] and, where
 /// there are normals, normal.npy float32 [M,3], into a folder that is made when missing.

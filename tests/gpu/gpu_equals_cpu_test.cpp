@@ -58,7 +58,11 @@ TEST_P(GpuEqualsCpu, OnEveryRay) {
     }
     RecordProperty("same_bits", static_cast<int>(same_bits));
     // The driver's own triangle test rounds otherwise than ours, and triangles' edges are sharp.
-    const size_t allowed = geometry.is_triangles() ? rays.rays.size() / 200 : 0;
+    size_t allowed = geometry.is_triangles() ? rays.rays.size() / 200 : 0;
+    // Published variants have the plain frame, whose rounding hangs on what a compiler contracts to fma:
+    // lavapipe contracts nothing (as C++ here), GPUs do.
+    if (GetParam().find("published") != std::string::npos && !device().info().is_lavapipe)
+        allowed = rays.rays.size() / 10;
     EXPECT_LE(different, allowed) << same_bits << " of " << rays.rays.size() << " have the same bits";
     EXPECT_LE(normal_different, allowed);
 }
