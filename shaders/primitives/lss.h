@@ -91,11 +91,14 @@ FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax,
     real3 first = real3(start);
     real3 last = real3(end);
     RayFrame frame = make_ray_frame(origin, direction, first, (last - first) * real(0.5));
+    real3 from = to_frame(frame, first);
+    real3 to = to_frame(frame, last);
+    real3 largest = max(abs(from), abs(to));
+    real unit = safe_unit(max(max(largest.x, largest.y), max(largest.z, max(start.w, end.w))));
     RoundConeHit hit;
-    if (!round_cone_entry(to_frame(frame, first), start.w, to_frame(frame, last), end.w, open_start, open_end,
-                          hit))
+    if (!round_cone_entry(from * unit, start.w * unit, to * unit, end.w * unit, open_start, open_end, hit))
         return false;
-    t = ray_parameter(frame, hit.z);
+    t = ray_parameter(frame, hit.z / unit);
     u = (real(piece) + hit.u) / real(pieces);
     normal = from_frame(frame, hit.normal);
     return t >= tmin && t < tmax;

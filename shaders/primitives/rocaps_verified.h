@@ -255,12 +255,18 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     c.p2 = real4(to_frame(frame, real3(c2)), c2.w);
     c.p3 = real4(to_frame(frame, real3(c3)), c3.w);
     real4 largest = max(max(abs(c.p0), abs(c.p1)), max(abs(c.p2), abs(c.p3)));
-    real z_max = (tmax - frame.t_foot) / frame.inv_length;
+    real unit = safe_unit(max(max(largest.x, largest.y), max(largest.z, largest.w)));
+    c.p0 = c.p0 * unit;
+    c.p1 = c.p1 * unit;
+    c.p2 = c.p2 * unit;
+    c.p3 = c.p3 * unit;
+    largest = largest * unit;
+    real z_max = (tmax - frame.t_foot) / frame.inv_length * unit;
     if (!(z_max < real(3e38))) z_max = real(3e38);  // long directions: beyond what stands for "no entry" yet
 
     VerifiedSearch search;
     search.slack = real(4) * real_epsilon * max(max(largest.x, largest.y), max(largest.z, largest.w));
-    search.z_min = (tmin - frame.t_foot) / frame.inv_length;
+    search.z_min = (tmin - frame.t_foot) / frame.inv_length * unit;
     search.a = real(piece) / real(pieces);
     search.b = real(piece + 1u) / real(pieces);
     search.bend = largest_bend(c, search.a, search.b);
@@ -306,6 +312,6 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     if (!polish_entry(c, search, real(piece) / real(pieces), real(piece + 1u) / real(pieces), z, u, normal))
         return false;
     normal = from_frame(frame, normal);
-    t = ray_parameter(frame, z);
+    t = ray_parameter(frame, z / unit);
     return t >= tmin && t < tmax;
 }

@@ -85,3 +85,7 @@ FUNCTION real3 from_frame(RayFrame frame, real3 v) {
 
 // Ray parameter of a depth in the frame.
 FUNCTION real ray_parameter(RayFrame frame, real z) { return z * frame.inv_length + frame.t_foot; }
+
+// A power of two that brings lengths of `size` near 1 where products of four of them would underflow (scenes
+// in nanometres); 1 elsewhere. Multiplying by it rounds nothing.
+FUNCTION real safe_unit(real size) { return size < real(1e-5) ? real(8589934592.0) : real(1); }

@@ -178,37 +178,37 @@ int run(Options& options) {
 }  // namespace
 
 Command bench_command() {
-    return {"bench", "compare primitives: time, memory and error",
-            "  strandlab bench\n"
-            "  strandlab bench hair.hair --primitive lss:segments=8 --primitive prhi --rays primary --rays "
-            "shadow\n"
-            "  strandlab bench hair.tfx --resolution 1280x720 --json results.jsonl --images pictures\n" +
-                primitive_help(),
-            [](CLI::App& app) -> RunCommand {
-                auto options = std::make_shared<Options>();
-                options->models.add_to(app, false);
-                options->primitives.add_to(app, true);
-                options->rays.add_to(app, "primary, secondary");
-                options->device.add_to(app);
-                app.add_option("--repeat", options->repeat, "timed traces of each case")
-                    ->capture_default_str()
-                    ->check(whole_number(1, 10000));
-                app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
-                app.add_option("--csv", options->csv, "append rows to this file");
-                app.add_option("--save-rays", options->save_rays,
-                               "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
-                app.add_option("--images", options->images,
-                               "folder for a picture of every case with primary rays");
-                app.add_option("--leaf-order", options->leaf_order,
-                               "order of leaves in builds: auto, file, median")
-                    ->capture_default_str();
-                app.add_flag("--no-compaction", options->no_compaction,
-                             "keep acceleration structures as built");
-                app.add_flag("--no-normals", options->no_normals, "write t, u and curve only: 16 bytes a ray")
-                    ->excludes("--images");
-                app.add_flag("--no-embree", options->no_embree, "no row for Embree's round curves");
-                return [options] { return run(*options); };
-            }};
+    return {
+        "bench", "compare primitives: time, memory and error",
+        "  strandlab bench\n"
+        "  strandlab bench hair.hair --primitive lss:segments=8 --primitive prhi --rays primary --rays "
+        "shadow\n"
+        "  strandlab bench hair.tfx --resolution 1280x720 --json results.jsonl --images pictures\n" +
+            primitive_help(),
+        [](CLI::App& app) -> RunCommand {
+            auto options = std::make_shared<Options>();
+            options->models.add_to(app, false);
+            options->primitives.add_to(app, true);
+            options->rays.add_to(app, "primary, secondary");
+            options->device.add_to(app);
+            app.add_option("--repeat", options->repeat, "timed traces of each case")
+                ->capture_default_str()
+                ->check(whole_number(1, 10000));
+            app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
+            app.add_option("--csv", options->csv, "append rows to this file");
+            app.add_option("--save-rays", options->save_rays,
+                           "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
+            app.add_option("--images", options->images,
+                           "folder for a picture of every case with primary rays");
+            app.add_option("--leaf-order", options->leaf_order,
+                           "order of leaves in builds: auto, file, median")
+                ->capture_default_str();
+            app.add_flag("--no-compaction", options->no_compaction, "keep acceleration structures as built");
+            app.add_flag("--no-normals", options->no_normals, "write t, u and curve only: 16 bytes a ray")
+                ->excludes("--images");
+            app.add_flag("--no-embree", options->no_embree, "no row for Embree's round curves");
+            return [options] { return run(*options); };
+        }};
 }
 
 }  // namespace strandlab

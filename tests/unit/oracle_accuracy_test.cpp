@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 #include "oracle_brute_force.h"
 #include "oracle_cases.h"
+#include "strands/bezier.h"
 #include "trace/oracle.h"
 #include "trace/reference.h"
 
@@ -66,6 +67,14 @@ double in_radii(const Ray& ray, const ReferenceHit& hit, long double other) {
            double(glm::length(ray.direction)) / hit.radius;
 }
 
+/// Whether the hit is a point of the disc at its own parameter.
+bool lies_on_disc(const Curve& curve, const Ray& ray, const ReferenceHit& hit) {
+    const glm::dvec4 centre = point_at(to_double(curve), hit.u);
+    const glm::dvec3 off = glm::dvec3(ray.origin) + hit.t * glm::dvec3(ray.direction) - glm::dvec3(centre);
+    return std::abs(glm::length(off) - centre.w) <= 1e-5 * centre.w &&
+           std::abs(glm::dot(off, tangent_at(to_double(curve), hit.u))) <= 1e-5 * centre.w;
+}
+
 Outcome against_search(const Curve& curve, const Ray& ray, Surface::Sweep sweep, Caps caps) {
     const Surface surface = surface_of(curve, sweep, caps);
     const Reference reference = make_reference(surface, curves_of(curve), {&ray, 1});
@@ -75,6 +84,12 @@ Outcome against_search(const Curve& curve, const Ray& ray, Surface::Sweep sweep,
     const ReferenceHit& hit = reference.hits[0];
     Outcome outcome{reference.decisive[0] != 0, hit.is_hit(), expected.hit, 0};
     if (hit.is_hit() && expected.hit) outcome.difference = in_radii(ray, hit, expected.t);
+    // At a fold the disc makes half a turn within 1e-7 of u, which no sampling sees: a nearer hit of the
+    // oracle counts when it is a point of the surface.
+    const bool nearer = hit.is_hit() && (!expected.hit || hit.t < static_cast<double>(expected.t));
+    const bool disagrees = !expected.hit || outcome.difference > 1e-3;
+    if (sweep == Surface::Sweep::disc && nearer && disagrees && lies_on_disc(curve, ray, hit))
+        outcome.decisive = false;
     return outcome;
 }
 
