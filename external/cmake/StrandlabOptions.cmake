@@ -33,6 +33,7 @@ strandlab_optional(IMAGES OpenImageIOLight "PNG and EXR images through OpenImage
 strandlab_optional(TESTS GTest "tests")
 
 option(STRANDLAB_SANITIZE "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(STRANDLAB_FUZZ "libFuzzer program of tests/fuzz, everything instrumented for it; clang only" OFF)
 option(STRANDLAB_WERROR "Warnings are errors" OFF)
 
 add_library(strandlab_flags INTERFACE)
@@ -49,5 +50,14 @@ endif()
 if(STRANDLAB_SANITIZE)
   target_compile_options(strandlab_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer)
+  target_link_options(strandlab_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(STRANDLAB_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "STRANDLAB_FUZZ needs clang: configure with -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  target_compile_options(strandlab_flags INTERFACE -g1 -UNDEBUG -D_GLIBCXX_ASSERTIONS
+                         -fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(strandlab_flags INTERFACE -fsanitize=address,undefined)
 endif()

@@ -86,8 +86,10 @@ FUNCTION void dots_move(real3 direction, real3 tangent, real chord_length, real3
     real part = abs(wanted) > abs(moved) ? moved / wanted : real(1);
     real arrival = max(t + step * part, tmin);
     real travelled = speed_along * (arrival - t);
+    real reached = clamp((from + travelled) / chord_length, real(0), real(1));
+    if (!(abs(arrival) <= real(3e38) && reached >= real(0))) return;  // no numbers: stay on the strip
     t = arrival;
-    along = clamp((from + travelled) / chord_length, real(0), real(1));
+    along = reached;
 }
 
 // Normal of a hit (round, or of the triangle), and with round_offset its place on the round strand.

@@ -189,8 +189,13 @@ std::vector<Json> read_json_lines(const std::string& path) {
         ++number;
         const bool is_complete = !file.eof();
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-        Json row = Json::parse(line, nullptr, false);
-        if (row.is_object())
+        bool too_deep = false;  // deeper than any row: what handles one recurses
+        const auto stay_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+            too_deep = too_deep || depth > 64;
+            return !too_deep;
+        };
+        Json row = Json::parse(line, stay_shallow, false);
+        if (row.is_object() && !too_deep)
             rows.push_back(std::move(row));
         else if (!is_complete)
             warn("{}: line {} was cut off and is left out", path, number);

@@ -106,11 +106,18 @@ struct SceneReader {
     }
 };
 
+/// Deepest nesting of a scene file; messages print values, which recurses.
+constexpr int deepest = 16;
+
 Scene load_scene_file(const std::string& path, const CurveOptions& options) {
     const SceneReader reader{path};
     const Json file = [&] {
+        const auto stay_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+            if (depth > deepest) reader.reject("nested more than {} levels deep", deepest);
+            return true;
+        };
         try {
-            return Json::parse(read_file(path));
+            return Json::parse(read_file(path), stay_shallow);
         } catch (const Json::exception& error) {
             reader.reject("not JSON: {}", error.what());
         }

@@ -7,6 +7,7 @@
 #include "trace/swept_hit.h"
 #include "trace/triangle_hit.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -53,6 +54,9 @@ uint16_t part_count(const SurfacePiece& piece, uint32_t most) {
                                  : parts > 1   ? static_cast<uint32_t>(std::ceil(parts))
                                                : 1u);
 }
+
+/// A parameter of a whole curve: rounding, and ends that were shifted, can leave [0, 1].
+double on_curve(double u) { return std::clamp(u, 0.0, 1.0); }
 
 }  // namespace
 
@@ -142,7 +146,8 @@ class Oracle::Query {
         const auto t = static_cast<double>(frame.parameter(hit.z));
         if (!is_better(t, primitive)) return;
         best_.t = t;
-        best_.u = piece.u0 + (double(piece.u1) - double(piece.u0)) * range.global(static_cast<double>(hit.u));
+        const double u = range.global(static_cast<double>(hit.u));
+        best_.u = on_curve(piece.u0 + (double(piece.u1) - double(piece.u0)) * u);
         best_.normal = glm::normalize(frame.global(hit.normal.x, hit.normal.y, hit.normal.z));
         best_.radius = static_cast<double>(hit.radius);
         best_.curve = piece.curve;
@@ -171,6 +176,8 @@ class Oracle::Query {
             best_.u += weight * double(triangle.u[i]);
             best_.radius += weight * glm::length(vertices[i] - glm::dvec3(triangle.centre[i]));
         }
+        best_.u = on_curve(best_.u);
+        best_.radius = std::max(best_.radius, 0.0);  // beside an edge by a rounding error
         best_.normal = glm::normalize(normal);
         best_.curve = triangle.curve;
         best_.on_cap = false;
