@@ -15,6 +15,9 @@
 #define PRECISE precise
 #define FUNCTION
 
+// Set only where the arithmetic probe (source/gpu/arithmetic.h) has shown that fma rounds once.
+layout(constant_id = 15) const bool hardware_fma = false;
+
 const float real_splitter = 4097.0;  // 2^12 + 1, Dekker's constant for 24-bit significands
 const float real_epsilon = 1.1920929e-7;
 

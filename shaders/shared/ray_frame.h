@@ -22,8 +22,12 @@ FUNCTION real3 difference_error(real3 a, real3 b, real3 difference) {
     return result;
 }
 
-// Rounding error of s * v, given product = fl(s * v) (Dekker's splitting; fma is not fused everywhere).
+// Rounding error of s * v, given product = fl(s * v): Dekker's splitting, since fma is not fused everywhere.
 FUNCTION real3 product_error(real s, real3 v, real3 product) {
+    if (hardware_fma) {
+        PRECISE real3 fused = fma(real3(s), v, -product);
+        return fused;
+    }
     PRECISE real scaled_s = s * real_splitter;
     PRECISE real rest_s = scaled_s - s;
     PRECISE real high_s = scaled_s - rest_s;

@@ -2,12 +2,22 @@
 #include "base/error.h"
 #include "commands/arguments.h"
 #include "commands/command.h"
+#include "gpu/arithmetic.h"
 #include "gpu/device.h"
 
 #include <cstdio>
 
 namespace strandlab {
 namespace {
+
+/// Found out by asking the device, which takes opening it.
+std::string arithmetic_text(size_t index) {
+    try {
+        return arithmetic_of(Device({.selector = std::to_string(index)})).to_string();
+    } catch (const Error& error) {
+        return fmt::format("unknown ({})", error.what());
+    }
+}
 
 void print_device(size_t index, const DeviceInfo& info) {
     fmt::print("device {}: {} ({})\n", index, info.name, info.kind);
@@ -27,6 +37,7 @@ void print_device(size_t index, const DeviceInfo& info) {
                info.has_linear_swept_spheres
                    ? "VK_NV_ray_tracing_linear_swept_spheres is there; lss still uses its portable shader"
                    : "no VK_NV_ray_tracing_linear_swept_spheres: lss uses its portable shader");
+    fmt::print("  arithmetic    {}\n", arithmetic_text(index));
     std::string runs;
     for (const Primitive& primitive : primitives()) runs += (runs.empty() ? "" : ", ") + primitive.name;
     fmt::print("  primitives    {}\n", runs);
@@ -43,6 +54,7 @@ int run_info() {
         none = error.what();
     }
     if (!none.empty()) fmt::print("device: none ({})\n", none);
+    fmt::print("cpu versions of the intersectors: {}\n", arithmetic_of_cpu().to_string());
     fmt::print("\n{}", primitive_help());
     return static_cast<int>(none.empty() ? ExitCode::ok : ExitCode::no_device);
 }

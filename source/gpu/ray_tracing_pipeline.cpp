@@ -1,6 +1,7 @@
 #include "gpu/ray_tracing_pipeline.h"
 
 #include "gpu/device_state.h"
+#include "gpu/specialization.h"
 #include "gpu/timer.h"
 
 #include <cstring>
@@ -20,21 +21,6 @@ struct RayTracingPipeline::Implementation {
 namespace {
 
 using Stage = vk::ShaderStageFlagBits;
-
-/// Specialization data shared by all stages.
-struct Specialization {
-    explicit Specialization(const PipelineConstants& constants) {
-        for (const auto& [id, bits] : constants) {
-            entries.emplace_back(id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
-                                 sizeof(uint32_t));
-            values.push_back(bits);
-        }
-        info.setMapEntries(entries).setData<uint32_t>(values);
-    }
-    std::vector<vk::SpecializationMapEntry> entries;
-    std::vector<uint32_t> values;
-    vk::SpecializationInfo info;
-};
 
 /// Modules and stage infos in the order in which groups refer to them.
 struct StageList {

@@ -26,6 +26,7 @@
     using real3 = glm::vec<3, real>;                                                                  \
     using real4 = glm::vec<4, real>;                                                                  \
     using uint = uint32_t;                                                                            \
+    static constexpr bool hardware_fma = false;                                                       \
     static constexpr real real_splitter = std::is_same_v<real, float> ? real(4097) : real(134217729); \
     static constexpr real real_epsilon = std::numeric_limits<real>::epsilon();
 
@@ -36,6 +37,7 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::fma;  // not fused, and never called: hardware_fma is false
 using glm::length;
 using glm::max;
 using glm::min;
