@@ -100,6 +100,6 @@ FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax,
         return false;
     t = ray_parameter(frame, hit.z / unit);
     u = (real(piece) + hit.u) / real(pieces);
-    normal = from_frame(frame, hit.normal);
+    normal = from_frame(frame, normal_or_facing(hit.normal));
     return t >= tmin && t < tmax;
 }

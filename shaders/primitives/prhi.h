@@ -340,6 +340,6 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     if (!found) return false;
     t = ray_parameter(frame, hit.z);
     u = (real(piece) + clamp(hit.v, real(0), real(1))) / real(pieces);
-    normal = from_frame(frame, hit.normal);
+    normal = from_frame(frame, normal_or_facing(hit.normal));
     return t >= tmin && t < tmax;
 }

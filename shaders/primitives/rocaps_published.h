@@ -162,7 +162,7 @@ FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tm
     u = published_foot(c, z, u, real(0.1) * step);
     real4 centre = cubic_point(c, u);
     real3 out_of = real3(-centre.x, -centre.y, z - centre.z);
-    out_of = out_of / sqrt(dot(out_of, out_of));
+    out_of = normal_or_facing(out_of / sqrt(dot(out_of, out_of)));
     normal = x_axis * out_of.x + y_axis * out_of.y + n * out_of.z;
     t = z / size;
     return t >= tmin && t < tmax;

@@ -215,8 +215,7 @@ FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, 
         u = next;
     }
     u = best_u;
-    // The ball of a vanishing tip is too small for a normal of its own: it faces the ray.
-    normal = dot(best, best) > real(0.5) ? best : real3(real(0), real(0), real(-1));
+    normal = normal_or_facing(best);
     return z >= search.z_min && u >= a - margin && u <= b + margin;
 }
 

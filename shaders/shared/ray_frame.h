@@ -87,6 +87,11 @@ FUNCTION real3 from_frame(RayFrame frame, real3 v) {
     return frame.axis_x * v.x + frame.axis_y * v.y + frame.axis_z * v.z;
 }
 
+// A hit's normal in the frame; it faces the ray where a vanishing radius or an overflow leaves none.
+FUNCTION real3 normal_or_facing(real3 normal) {
+    return abs(dot(normal, normal) - real(1)) < real(0.5) ? normal : real3(real(0), real(0), real(-1));
+}
+
 // Ray parameter of a depth in the frame.
 FUNCTION real ray_parameter(RayFrame frame, real z) { return z * frame.inv_length + frame.t_foot; }
 

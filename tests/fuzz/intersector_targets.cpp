@@ -27,6 +27,7 @@ struct Expectation {
     /// A valid ray and curves as a reader lets them through, of sizes whose squares and fourth powers neither
     /// over- nor underflow.
     bool ordinary = true;
+    bool legal = true;  // the same of any size
     double overlap = 0;  // of Variant; 0: nothing is known
 };
 
@@ -39,6 +40,7 @@ void check_hit(const Ray& ray, const LeafHit<Real>& hit, const Expectation& expe
     require(hit.t >= Real(ray.tmin) && hit.t < Real(ray.tmax), "t outside of [tmin, tmax): " + text());
     require(hit.u >= 0 && hit.u <= 1, "u outside of [0, 1]: " + text());
     const Real length = std::sqrt(glm::dot(hit.normal, hit.normal));
+    require(!expect.legal || !std::isnan(length), "a normal that is no number: " + text());
     require(!expect.ordinary || std::abs(length - 1) < Real(1e-3), "a normal that is not unit: " + text());
 }
 
@@ -115,7 +117,8 @@ void run(std::span<const Variant> variants, Bytes bytes) {
     if (geometry.leaf_count() == 0) return;
     if (any_records) overwrite_records(geometry, reader);
     Expectation expect;
-    expect.ordinary = !any_records && is_valid(input.ray) && is_within(input, 1e-6f, 1e6f);
+    expect.legal = !any_records && is_valid(input.ray);
+    expect.ordinary = expect.legal && is_within(input, 1e-6f, 1e6f);
     expect.overlap = expect.ordinary ? variant.overlap : 0;
     const size_t leaf = selector % geometry.leaf_count();
     const CpuIntersectors& cpu = choice.primitive->cpu;
