@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "strands/curves.h"
+#include "trace/coherent_order.h"
 #include "trace/disc_hit.h"
 #include "trace/surface_variation.h"
 #include "trace/swept_hit.h"
@@ -91,10 +92,11 @@ Oracle::Oracle(const Surface& surface, const OracleOptions& options) : surface_(
 template <class Real>
 class Oracle::Query {
   public:
-    Query(const Oracle& oracle, const ExactRay& ray, const OracleOptions& options)
+    /// from: no hit lies before it.
+    Query(const Oracle& oracle, const ExactRay& ray, const OracleOptions& options, double from = 0)
         : surface_(*oracle.surface_), items_(oracle.items_), ray_(ray), options_(options) {
         recent_.fill(no_curve);
-        const BvhRay traversal(ray.origin, ray.direction, ray.tmin, ray.tmax);
+        const BvhRay traversal(ray.origin, ray.direction, std::max(from, ray.tmin), ray.tmax);
         oracle.bvh_.traverse(traversal, [&](uint32_t item, double& tmax) {
             const Item& leaf = items_[item];
             if (leaf.primitive < surface_.pieces.size())
@@ -200,26 +202,41 @@ ReferenceHit Oracle::trace(const ExactRay& ray, const OracleOptions& options) co
                             : Query<double>(*this, ray, options).result();
 }
 
+namespace {
+
+ExactRay exact(const Ray& ray) {
+    return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.tmin, ray.tmax};
+}
+
+}  // namespace
+
 ReferenceHit Oracle::trace(const Ray& ray, const OracleOptions& options) const {
+    return is_valid(ray) ? trace(exact(ray), options) : ReferenceHit{};
+}
+
+ReferenceHit Oracle::trace(const Ray& ray, const OracleOptions& options, double from) const {
     if (!is_valid(ray)) return {};
-    return trace(ExactRay{glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.tmin, ray.tmax}, options);
+    const ExactRay exact_ray = exact(ray);
+    return options.extended ? Query<long double>(*this, exact_ray, options, from).result()
+                            : Query<double>(*this, exact_ray, options, from).result();
 }
 
 ReferenceHit Oracle::trace(const Ray& ray, const OracleOptions& options, bool& stays_clear) const {
     stays_clear = true;
     if (!is_valid(ray)) return {};
-    const ExactRay exact{glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.tmin, ray.tmax};
+    const ExactRay exact_ray = exact(ray);
     const auto ask = [&](const auto& query) {
         stays_clear = query.stays_clear();
         return query.result();
     };
-    return options.extended ? ask(Query<long double>(*this, exact, options))
-                            : ask(Query<double>(*this, exact, options));
+    return options.extended ? ask(Query<long double>(*this, exact_ray, options))
+                            : ask(Query<double>(*this, exact_ray, options));
 }
 
 std::vector<ReferenceHit> Oracle::trace(std::span<const Ray> rays) const {
     std::vector<ReferenceHit> hits(rays.size());
-    parallel_for(rays.size(), [&](size_t i) { hits[i] = trace(rays[i]); });
+    const std::vector<uint32_t> order = coherent_order(rays);
+    parallel_for(rays.size(), [&](size_t i) { hits[order[i]] = trace(rays[order[i]]); });
     return hits;
 }
 

@@ -32,7 +32,9 @@ struct OracleOptions {
 /// Swept pieces count entering hits only. Each piece is closed by itself at interior joints; from outside
 /// the union is seen. A ray that starts within a piece does not see that piece's current part of the
 /// solid, and has starts_inside set whatever else it hits. Triangles are two-sided and their normal faces
-/// the ray. Of hits with the same t the piece that comes first in the surface wins. Invalid rays miss.
+/// the ray. Of hits with the same t the piece that comes first in the surface wins. Invalid rays miss. Where
+/// a curve folds back on itself, a disc that makes half a turn within about 1e-6 of the parameter is not
+/// resolved: whether there is such a turn hangs on the last bits of the control points.
 class Oracle {
   public:
     /// Builds the hierarchy. Keeps a reference: the surface must outlive the oracle. The options are those
@@ -46,6 +48,8 @@ class Oracle {
     /// The same; stays_clear: the ray's line meets no ball of any piece on its way and comes near no
     /// triangle, so that with smaller radii and the ends drawn in it misses whatever the surface is.
     ReferenceHit trace(const Ray& ray, const OracleOptions& options, bool& stays_clear) const;
+    /// The same where it is known that no hit lies before ray parameter `from`: what lies there is left out.
+    ReferenceHit trace(const Ray& ray, const OracleOptions& options, double from) const;
     /// All rays, in parallel.
     std::vector<ReferenceHit> trace(std::span<const Ray> rays) const;
     /// A ray in double precision; numbers must be finite, the direction not zero, 0 <= tmin <= tmax.

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "trace/coherent_order.h"
 
 #include <glm/glm.hpp>
 
@@ -35,26 +36,47 @@ Decided decided(const Ray& ray, const Curves& curves, const ReferenceHit& hit, c
     return result;
 }
 
+namespace {
+
+/// Whether smaller radii give a solid that lies within the larger one, so that no ray from outside enters it
+/// sooner. Open ends and discs, which may be entered unseen, do not nest.
+bool is_nested(const Surface& surface) {
+    return surface.sweep == Surface::Sweep::sphere && surface.caps == Caps::round &&
+           surface.triangles.empty();
+}
+
+/// A parameter at which a ray cannot have hit a surface within the one that it enters at `outer`.
+double before(const ReferenceHit& outer) { return outer.t - 1e-9 * outer.t; }
+
+}  // namespace
+
 Reference make_reference(const Surface& surface, const Curves& curves, std::span<const Ray> rays,
                          const DecisiveMargin& margin) {
     const OracleOptions larger{1 + margin.radius, margin.ulps, margin.ends};
     const OracleOptions smaller{1 - margin.radius, margin.ulps, -margin.ends};
     const Oracle oracle(surface, larger);
+    const bool nested = is_nested(surface);
     Reference reference;
     reference.hits.resize(rays.size());
     reference.decisive.resize(rays.size());
     reference.decisive_place.resize(rays.size());
     Progress progress("reference hits", rays.size());
-    parallel_for(rays.size(), [&](size_t i) {
+    const std::vector<uint32_t> order = coherent_order(rays);
+    parallel_for(rays.size(), [&](size_t at) {
+        const size_t i = order[at];
         bool stays_clear = false;
         const ReferenceHit outer = oracle.trace(rays[i], larger, stays_clear);
-        if (stays_clear) {  // of the largest surface, hence of all three
+        const bool from_outside = nested && !outer.starts_inside;
+        if (stays_clear || (from_outside && !outer.is_hit())) {  // of the largest surface, hence of all three
             reference.decisive[i] = reference.decisive_place[i] = 1;
             return;
         }
-        reference.hits[i] = oracle.trace(rays[i], OracleOptions{});
-        const Decided is_decided =
-            decided(rays[i], curves, reference.hits[i], outer, oracle.trace(rays[i], smaller));
+        const ReferenceHit hit = oracle.trace(rays[i], OracleOptions{}, from_outside ? before(outer) : 0.0);
+        ReferenceHit inner;
+        if (!(from_outside && !hit.is_hit()))
+            inner = oracle.trace(rays[i], smaller, from_outside ? before(hit) : 0.0);
+        const Decided is_decided = decided(rays[i], curves, hit, outer, inner);
+        reference.hits[i] = hit;
         reference.decisive[i] = is_decided.strand;
         reference.decisive_place[i] = is_decided.place;
         progress.tick();

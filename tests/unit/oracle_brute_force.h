@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -66,7 +68,7 @@ class Search {
         for (const auto& [a, b] : components())
             for (const int side : {-1, 1}) {
                 const auto f = [&](Real u) { return glm::dot(arm(u, side), slope(u)); };
-                const int n = 600;
+                const std::vector<Real> samples = disc_samples(a, b);
                 // Along a straight tapering tube the plane of every disc is met in its centre's foot: there
                 // is no change of sign, only the point where the ray crosses the rim.
                 for (const Real end : {a, b})
@@ -74,8 +76,8 @@ class Search {
                         std::abs(f(end)) <= 1e-8L * glm::length(slope(end)) * at(end).w)
                         consider_disc(end, side, best);
                 Real u0 = a, f0 = f(a);
-                for (int i = 1; i <= n; ++i) {
-                    const Real u1 = a + (b - a) * i / n, f1 = f(u1);
+                for (const Real u1 : samples) {
+                    const Real f1 = f(u1);
                     if ((f0 < 0) != (f1 < 0)) consider_disc(bisected(u0, u1, f), side, best);
                     u0 = u1;
                     f0 = f1;
@@ -88,6 +90,10 @@ class Search {
     Vec4 at(Real u) const {
         const Real v = 1 - u;
         return v * v * v * c_[0] + 3 * u * v * v * c_[1] + 3 * u * u * v * c_[2] + u * u * u * c_[3];
+    }
+    Vec3 bend(Real u) const {
+        return Vec3(Real(6) *
+                    ((1 - u) * (c_[0] - Real(2) * c_[1] + c_[2]) + u * (c_[1] - Real(2) * c_[2] + c_[3])));
     }
     Vec3 slope(Real u) const {
         const Real v = 1 - u;
@@ -112,7 +118,8 @@ class Search {
 
     void consider_disc(Real u, int side, Result& best) const {
         const Vec3 tangent = slope(u);
-        if (!(glm::length(tangent) > 1e-6L) || !(at(u).w > 1e-12L)) return;
+        // Without a tangent there is no disc; near a fold it can be as short as the rounding of the points.
+        if (!(glm::length(tangent) > 1e-12L) || !(at(u).w > 1e-12L)) return;
         const Vec3 normal = arm(u, side) / at(u).w - radius_slope(u) / glm::dot(tangent, tangent) * tangent;
         const Real t = foot(u) + Real(side) * chord(u);
         // Not by rounding alone: a ray that only touches the rim of an open end has no front face there.
@@ -149,6 +156,25 @@ class Search {
             ((f(m) < 0) == negative ? a : b) = m;
         }
         return (a + b) / 2;
+    }
+
+    /// Parameters of [a, b] in order: evenly spaced, and crowded about the slowest points of the curve. Where
+    /// it folds back on itself, the disc makes half a turn within 1e-7 of u, and sweeps a ball.
+    std::vector<Real> disc_samples(Real a, Real b) const {
+        const int n = 600;
+        std::vector<Real> samples;
+        for (int i = 1; i <= n; ++i) samples.push_back(a + (b - a) * i / n);
+        const auto slowing = [&](Real u) { return glm::dot(slope(u), bend(u)); };
+        for (int i = 0; i < n; ++i) {
+            const Real left = Real(i) / n, right = Real(i + 1) / n;
+            if (!(slowing(left) < 0 && slowing(right) >= 0)) continue;
+            const Real slowest = bisected(left, right, slowing);
+            for (Real step = 1e-2L; step > 1e-15L; step *= 0.8L)
+                for (const Real u : {slowest - step, slowest + step})
+                    if (u > a && u < b) samples.push_back(u);
+        }
+        std::sort(samples.begin(), samples.end());
+        return samples;
     }
 
     /// Intervals with inside >= 0, also those that fall between the samples.
