@@ -23,6 +23,7 @@ int run(const Options& options) {
         fail(ExitCode::usage, "convert takes one MODEL, not {}", options.model.models.size());
     const std::string& path = options.model.models.front();
     const CurveOptions curve_options = options.model.curve_options();
+    check_output(options.output, options.write);
     ImportReport report;
     const Curves curves = load_model(path, curve_options, report, options.strands);
     for (const std::string& line : warnings(report, curve_options)) warn("{}: {}", path, line);

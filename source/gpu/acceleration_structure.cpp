@@ -1,11 +1,11 @@
 #include "gpu/acceleration_structure.h"
 
+#include "base/stopwatch.h"
 #include "gpu/device_state.h"
 #include "gpu/timer.h"
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 
 namespace strandlab {
 
@@ -112,10 +112,6 @@ Structure compacted(const Device& device, Structure structure, uint64_t bytes, B
     return smaller;
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 vk::GeometryFlagsKHR geometry_flags(bool opaque) {
     return opaque ? vk::GeometryFlagBitsKHR::eOpaque : vk::GeometryFlagBitsKHR::eNoDuplicateAnyHitInvocation;
 }
@@ -138,7 +134,7 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
     assert(input.leaf_count() > 0 && input.leaf_count() <= device.info().max_leaves);
     return guarded("building an acceleration structure", [&] {
         BuildCost cost;
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch stopwatch;
         vk::AccelerationStructureGeometryKHR geometry;
         geometry.flags = geometry_flags(input.opaque);
         Buffer boxes, vertices, indices;
@@ -157,7 +153,7 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
                 vk::Format::eR32G32B32Sfloat, vertices.address(), sizeof(glm::vec3),
                 static_cast<uint32_t>(input.vertices.size()) - 1, vk::IndexType::eUint32, indices.address());
         }
-        cost.upload_ms = milliseconds_since(start);
+        cost.upload_ms = stopwatch.milliseconds();
         uint64_t compacted_bytes = 0;
         Structure structure =
             build(device, Type::eBottomLevel, geometry, static_cast<uint32_t>(input.leaf_count()),

@@ -41,27 +41,7 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
 }
 
 Surface surface(const Curves& curves, const BuildOptions& options) {
-    const std::vector<uint32_t> pieces = straight_pieces(curves, options.parameters);
-    const std::vector<size_t> offsets = leaf_offsets(pieces);
-    Surface surface;
-    surface.caps = options.caps;
-    surface.pieces.resize(offsets.back());
-    parallel_for(pieces.size(), [&](size_t c) {
-        const uint32_t n = pieces[c];
-        const auto curve = static_cast<uint32_t>(c);
-        for (uint32_t i = 0; i < n; ++i) {
-            SurfacePiece& piece = surface.pieces[offsets[c] + i];
-            piece.control[0] = joint(curves.curves[c], i, n);
-            piece.control[3] = joint(curves.curves[c], i + 1, n);
-            piece.curve = curve;
-            piece.u0 = float(i) / float(n);
-            piece.u1 = float(i + 1) / float(n);
-            piece.straight = true;
-            piece.begins_strand = i == 0 && curves.begins_strand(curve);
-            piece.ends_strand = i + 1 == n && curves.ends_strand(curve);
-        }
-    });
-    return surface;
+    return straight_surface(curves, straight_pieces(curves, options.parameters), options.caps);
 }
 
 Geometry build(const Curves& curves, const BuildOptions& options) {

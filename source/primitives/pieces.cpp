@@ -72,6 +72,29 @@ void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool
     geometry.uniform_pieces = uniform && !needs_flags ? pieces[0] : 0;
 }
 
+Surface straight_surface(const Curves& curves, const std::vector<uint32_t>& pieces, Caps caps) {
+    const std::vector<size_t> offsets = leaf_offsets(pieces);
+    Surface surface;
+    surface.caps = caps;
+    surface.pieces.resize(offsets.back());
+    parallel_for(pieces.size(), [&](size_t c) {
+        const auto curve = static_cast<uint32_t>(c);
+        const uint32_t n = pieces[c];
+        for (uint32_t i = 0; i < n; ++i) {
+            SurfacePiece& piece = surface.pieces[offsets[c] + i];
+            piece.control[0] = joint(curves.curves[c], i, n);
+            piece.control[3] = joint(curves.curves[c], i + 1, n);
+            piece.curve = curve;
+            piece.u0 = float(i) / float(n);
+            piece.u1 = float(i + 1) / float(n);
+            piece.straight = true;
+            piece.begins_strand = i == 0 && curves.begins_strand(curve);
+            piece.ends_strand = i + 1 == n && curves.ends_strand(curve);
+        }
+    });
+    return surface;
+}
+
 glm::vec4 joint(const Curve& curve, uint32_t i, uint32_t n) {
     if (i == 0) return curve[0];
     if (i == n) return curve[3];

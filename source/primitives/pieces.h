@@ -3,6 +3,7 @@
 
 #include "base/parameters.h"
 #include "scene/geometry.h"
+#include "scene/surface.h"
 #include "strands/bezier.h"
 
 #include <vector>
@@ -27,6 +28,9 @@ void fill_leaves(const Curves& curves, uint32_t curve, uint32_t pieces, Leaf* le
 /// not needed.
 void make_leaves(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags,
                  Geometry& geometry);
+
+/// Balls swept along straight pieces with linear radius (round cones), through the joints of the curves.
+Surface straight_surface(const Curves& curves, const std::vector<uint32_t>& pieces, Caps caps);
 
 /// Point i of n + 1 equally spaced in u, rounded to float: shared bit for bit by neighbouring pieces.
 glm::vec4 joint(const Curve& curve, uint32_t i, uint32_t n);

@@ -82,12 +82,16 @@ Curves load_model(const std::string& path, const CurveOptions& options, ImportRe
     return format->load({source, strands ? &*strands : nullptr, options, report});
 }
 
-void write_model(const std::string& path, const Curves& curves, const WriteOptions& options) {
+void check_output(const std::string& path, const WriteOptions& options) {
     const ModelFormat& format = format_of(path, true);
     if (!options.strands_path.empty() && !format.takes_strands)
         fail(ExitCode::usage, "{}: a strands file ({}) goes with .npy curves only", path,
              options.strands_path);
-    format.write(path, curves, options);
+}
+
+void write_model(const std::string& path, const Curves& curves, const WriteOptions& options) {
+    check_output(path, options);
+    format_of(path, true).write(path, curves, options);
 }
 
 }  // namespace strandlab

@@ -36,6 +36,9 @@ const std::vector<ModelFormat>& model_formats();
 Curves load_model(const std::string& path, const CurveOptions& options, ImportReport& report,
                   const std::string& strands_path = {});
 
+/// Throws as write_model would for the path's extension and the options: before anything is loaded for it.
+void check_output(const std::string& path, const WriteOptions& options = {});
+
 /// Writes a model in the format of the path's extension, whole or not at all. Throws Error (bad_input).
 void write_model(const std::string& path, const Curves& curves, const WriteOptions& options = {});
 

@@ -23,17 +23,12 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
                 -p.centre.x * p.tangent.x - p.centre.y * p.tangent.y - p.centre.z * p.tangent.z;
             if (excess(Real(end)) >= 0 && (end == 0 ? beyond <= 0 : beyond >= 0)) return true;
         }
-    struct Part {
-        Swept<Real> s;
-        Real a, b;
-        int depth;
-    };
     constexpr int max_depth = 40;
-    std::array<Part, max_depth + 2> stack;
+    std::array<SweptPart<Real>, max_depth + 2> stack;
     int size = 0;
     stack[size++] = {at, 0, 1, 0};
     while (size > 0) {
-        const Part part = stack[--size];
+        const SweptPart<Real> part = stack[--size];
         Scaled<Real, 6> ball = inside_coefficients(part.s.x, part.s.y, part.s.r);
         add_product<Real, 3, 3>(ball, scaled(part.s.z), scaled(part.s.z), Real(-1));
         if (*std::max_element(ball.begin(), ball.end()) < 0) continue;
@@ -53,22 +48,12 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
             if (excess(bracketed_root(f, part.a, part.b, leading_sign(along))) >= 0) return true;
             continue;
         }
-        const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
-        if (part.depth >= max_depth || !(middle > part.a && middle < part.b)) {
-            if (excess(middle) >= 0) return true;
+        if (part.depth >= max_depth || !part.can_be_split()) {
+            if (excess(part.middle()) >= 0) return true;
             continue;
         }
-        Part& right = stack[size++];
-        Part left;
-        split(part.s.x, Real(split_ratio), left.s.x, right.s.x);
-        split(part.s.y, Real(split_ratio), left.s.y, right.s.y);
-        split(part.s.z, Real(split_ratio), left.s.z, right.s.z);
-        split(part.s.r, Real(split_ratio), left.s.r, right.s.r);
-        left.a = part.a;
-        left.b = right.a = middle;
-        right.b = part.b;
-        left.depth = right.depth = part.depth + 1;
-        stack[size++] = left;
+        part.split_into(stack[size + 1], stack[size]);
+        size += 2;
     }
     return false;
 }

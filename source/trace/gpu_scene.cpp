@@ -3,12 +3,12 @@
 #include "shaders/shared/trace_parameters.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "gpu/embedded_shaders.h"
 #include "scene/leaf_order.h"
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cstring>
 #include <numeric>
 
@@ -20,10 +20,6 @@ enum ConstantId : uint32_t { has_leaf_table_id = 0, wants_normals_id = 1, curves
 
 // gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
 constexpr uint32_t shadow_flags = 0x4u | 0x8u;
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// A structure takes up to 128 bytes a leaf on the devices seen, and must fit one allocation.
 uint64_t leaves_per_structure(const DeviceInfo& info, uint64_t asked) {
@@ -81,9 +77,9 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
         if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
         if (!reorders || model.geometry.leaf_count() < 3) continue;
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch stopwatch;
         reorder_leaves(model.geometry, median_order(leaf_boxes(model.geometry)));
-        cost_.order_ms += milliseconds_since(start);
+        cost_.order_ms += stopwatch.milliseconds();
     }
     has_leaf_table_ = std::any_of(models.begin(), models.end(),
                                   [](const SceneModel& m) { return m.geometry.uniform_pieces == 0; });
@@ -94,7 +90,7 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
 
 void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOptions& options) {
     const Geometry& geometry = model.geometry;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     ModelBuffers& buffers = model_buffers_.emplace_back();
     if (has_leaf_table_) {
         buffers.leaves = make_buffer(device_, std::span<const Leaf>(geometry.leaves), Buffer::Use::storage);
@@ -106,7 +102,7 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
         buffers.curve_records = upload(device_, geometry.curve_records.bytes, cost_);
     if (geometry.shading_records.stride != 0 && (options.normals || geometry.always_shades))
         buffers.shading_records = upload(device_, geometry.shading_records.bytes, cost_);
-    cost_.builds.upload_ms += milliseconds_since(start);
+    cost_.builds.upload_ms += stopwatch.milliseconds();
     cost_.leaf_count += geometry.leaf_count();
 
     std::vector<Box> boxes(geometry.boxes.size());
@@ -165,7 +161,7 @@ void GpuScene::add_tops(std::span<const InstanceInput> inputs, const std::vector
 }
 
 void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const PrimitiveShaders& shaders = primitive.shaders;
     const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
     const std::string any_hit = filters_triangles ? "own_curve.rahit" : shaders.any_hit;
@@ -178,7 +174,7 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
     all.emplace_back(curves_of_a_ray_id, curves_of_a_ray_);
     pipeline_.emplace(device_, stages, all, static_cast<uint32_t>(sizeof(layout::TraceParameters)));
-    cost_.pipeline_ms = milliseconds_since(start);
+    cost_.pipeline_ms = stopwatch.milliseconds();
 }
 
 std::vector<RayTracingPipeline::Launch> GpuScene::launches(const Rays& rays,

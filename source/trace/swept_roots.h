@@ -42,6 +42,30 @@ struct Swept {
     }
 };
 
+/// A parameter interval of a piece under subdivision: the piece on it.
+template <class Real>
+struct SweptPart {
+    Swept<Real> s;
+    Real a, b;
+    int depth = 0;
+    int tight_levels = 0;  // of these levels, how many saw D well scaled
+
+    Real middle() const { return a + Real(split_ratio) * (b - a); }
+    /// Whether there is a number between the ends to split at.
+    bool can_be_split() const { return middle() > a && middle() < b; }
+    void split_into(SweptPart& left, SweptPart& right) const {
+        split(s.x, Real(split_ratio), left.s.x, right.s.x);
+        split(s.y, Real(split_ratio), left.s.y, right.s.y);
+        split(s.z, Real(split_ratio), left.s.z, right.s.z);
+        split(s.r, Real(split_ratio), left.s.r, right.s.r);
+        left.a = a;
+        left.b = right.a = middle();
+        right.b = b;
+        left.depth = right.depth = depth + 1;
+        left.tight_levels = right.tight_levels = tight_levels;
+    }
+};
+
 /// A list of bounded length without allocation; what does not fit is dropped (never for exact input).
 template <class T, int Capacity>
 struct ShortList {
@@ -221,11 +245,7 @@ class SurfaceRoots {
     /// Levels below the first well-scaled interval after which remaining variations are a multiple root.
     static constexpr int levels_of_multiple_root = 20;
 
-    struct Part {
-        Swept<Real> s;
-        Real a, b;
-        int depth, tight_levels;
-    };
+    using Part = SweptPart<Real>;
 
     void isolate() {
         std::array<Part, max_depth + 2> stack;
@@ -234,24 +254,13 @@ class SurfaceRoots {
         while (size > 0) {
             Part part = stack[--size];
             if (is_settled(part)) continue;
-            const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
             if (part.depth >= max_depth || part.tight_levels >= levels_of_multiple_root ||
-                !(middle > part.a && middle < part.b)) {
-                add_multiple(part, middle);
+                !part.can_be_split()) {
+                add_multiple(part, part.middle());
                 continue;
             }
-            Part& right = stack[size++];
-            Part left;
-            split(part.s.x, Real(split_ratio), left.s.x, right.s.x);
-            split(part.s.y, Real(split_ratio), left.s.y, right.s.y);
-            split(part.s.z, Real(split_ratio), left.s.z, right.s.z);
-            split(part.s.r, Real(split_ratio), left.s.r, right.s.r);
-            right.a = left.b = middle;
-            left.a = part.a;
-            right.b = part.b;
-            right.depth = left.depth = part.depth + 1;
-            right.tight_levels = left.tight_levels = part.tight_levels;
-            stack[size++] = left;
+            part.split_into(stack[size + 1], stack[size]);
+            size += 2;
         }
     }
 

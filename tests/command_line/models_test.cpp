@@ -46,6 +46,12 @@ class ModelsTest : public CommandLineTest {
     }
 };
 
+TEST_F(ModelsTest, RefusesAnOutputBeforeTheModelIsRead) {
+    expect_failure(run({"convert", "missing.hair", "-o", "out.obj"}), 5, {"out.obj", "'.obj'", ".npy"});
+    expect_failure(run({"convert", "missing.hair", "-o", "out.hair", "--write-strands", "s.npy"}), 2,
+                   {"out.hair", "s.npy"});
+}
+
 TEST_F(ModelsTest, RefusesWhatIsNoModelFile) {
     std::filesystem::create_directory(path("folder.hair"));
     expect_refused("missing.hair", {"No such file"});
