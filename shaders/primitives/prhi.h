@@ -217,6 +217,7 @@ FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint
         } else {
             found = prhi_published_step(p.c, p.d);
         }
+        COUNT_ITERATION
         bool converged = abs(found.dv) < prhi_tolerance();
         if (converged && found.enters && p.c.z + found.s >= z_min) return true;
         real dv = clamp(found.dv, real(-0.5), real(0.5));

@@ -143,6 +143,7 @@ FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tm
             start = min(next, b - step);
             p = cubic_point(c, start);
         }
+        COUNT_ITERATION
         real end = min(b, start + step);
         real4 q = cubic_point(c, end);
         bool open_start = open_ends && begins_strand && start <= real(0);

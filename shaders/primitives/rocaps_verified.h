@@ -39,6 +39,7 @@ FUNCTION void refine_entry(FrameCubic c, real low, real high, real longest, real
                            INOUT(real) best_u) {
     real previous = real(0);
     for (int i = 0; i < 5; ++i) {
+        COUNT_ITERATION
         real4 d;
         real4 dd;
         real4 p = cubic_jet(c, u, d, dd);
@@ -168,6 +169,7 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
             start = next;
             run_start = start;
         }
+        COUNT_ITERATION
         real end = min(search.b, start + search.step);
         if (search.splits_runs && !passes) end = gap_between(c, start, end);
         real4 q = cubic_point(c, end);
@@ -201,6 +203,7 @@ FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, 
         real inside = (p.w - distance) * (p.w + distance);
         real depth = sqrt(max(inside, real(0)));
         real entry = p.z - depth;
+        COUNT_ITERATION
         if (i > 0 && !(inside >= real(0) && entry <= z)) break;
         z = entry;
         best_u = u;

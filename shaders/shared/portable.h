@@ -14,6 +14,7 @@
 // Every local of a function with error-free transformations carries the mark: it does not reach callees.
 #define PRECISE precise
 #define FUNCTION
+#define COUNT_ITERATION  // counted in C++ only
 
 // Set only where the arithmetic probe (source/gpu/arithmetic.h) has shown that fma rounds once.
 layout(constant_id = 15) const bool hardware_fma = false;

@@ -5,6 +5,7 @@
 #include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/stress_report.h"
+#include "commands/stress_run.h"
 #include "trace/embree_reference.h"
 #include "trace/scene_reference.h"
 #include "trace/trace_device.h"
@@ -20,24 +21,26 @@ namespace {
 struct Options {
     PrimitiveArguments primitives;
     std::vector<std::string> families, devices;
-    double pairs = 20000, embree_pairs = 2000;
+    double pairs = 20000, embree_pairs = 20000;
     uint64_t seed = default_stress_seed;
-    std::string json, heat_map, worst_folder;
+    std::string json, heat_map, worst_folder, agree;
     uint32_t worst = 10;
+    bool self_intersection = false, watertight = false;
 };
 
-/// Pairs that are in memory at a time.
-constexpr uint64_t chunk_size = 20000;
+/// Where intersectors run; opened once, with the pipelines that a Vulkan device has made so far.
+struct StressDevice {
+    const TraceDevice* device = nullptr;
+    PipelineStore pipelines;
 
-/// Where intersectors run; opened once.
-using Devices = std::vector<std::unique_ptr<TraceDevice>>;
+    const std::string& name() const { return device->name(); }
+};
+using Devices = std::vector<StressDevice>;
 
-Devices open_devices(std::vector<std::string> names) {
-    if (names.empty()) names = {"cpu-float", "cpu-double"};
-    Devices devices;
-    for (const std::string& name : names)
-        devices.push_back(std::make_unique<TraceDevice>(DeviceOptions{name, false}));
-    return devices;
+std::vector<std::string> default_devices(const Options& options) {
+    if (options.self_intersection || options.watertight) return {"cpu-float"};
+    if (!options.agree.empty()) return {""};
+    return {"cpu-float", "cpu-double"};
 }
 
 /// What the C++ float version says is wanted by every Vulkan device: computed at most once.
@@ -61,28 +64,31 @@ class PlainHits {
 
 /// One primitive on every device; cells: one for each device.
 void run_choice(const PrimitiveChoice& choice, const Curves& curves, const StressPairs& pairs,
-                const Devices& devices, size_t keep, std::span<StressCell> cells) {
+                Devices& devices, size_t keep, std::span<StressCell> cells) {
     const Primitive& primitive = *choice.primitive;
     const Geometry geometry = primitive.build(curves, choice.options);
     PlainHits plain(primitive, geometry, pairs);
     for (size_t d = 0; d < devices.size(); ++d) {
         StressTally& tally = cells[d].tally;
-        if (const Device* gpu = devices[d]->gpu()) {
-            const std::vector<StressHit> hits = trace_pairs(*gpu, primitive, geometry, pairs);
+        if (const Device* gpu = devices[d].device->gpu()) {
+            const PairScene scene(*gpu, primitive, geometry, pairs.range, extent_of(pairs.rays),
+                                  &devices[d].pipelines);
+            const std::vector<StressHit> hits = scene.trace(pairs.rays);
             add_errors(pairs, hits, keep, tally);
-            add_difference(pairs, hits, plain.get(), tally);
+            add_difference(curves, pairs.rays, hits, plain.get(), tally.agreement);
         } else if (cells[d].precise) {
             const auto hits = intersect_pairs(primitive, geometry, pairs, Precision::precise, tally.boxes);
             add_errors(pairs, hits, keep, tally);
         } else {
             add_errors(pairs, plain.get(), keep, tally);
             tally.boxes.add(plain.boxes());
+            count_iterations(primitive, geometry, pairs, tally.iterations);
         }
     }
 }
 
 /// All primitives on some pairs of one family. Primitives with the same surface share rays and answers.
-void run_chunk(const StressRange& range, std::span<const PrimitiveChoice> choices, const Devices& devices,
+void run_chunk(const StressRange& range, std::span<const PrimitiveChoice> choices, Devices& devices,
                size_t keep, std::span<StressCell> cells, Progress& progress) {
     const Curves curves = stress_strands(range);
     std::vector<std::pair<uint64_t, StressPairs>> known;  // by the hash of their surface
@@ -101,13 +107,13 @@ std::vector<StressCell> make_cells(const StressFamily& family, std::span<const P
                                    const Devices& devices) {
     std::vector<StressCell> cells;
     for (const PrimitiveChoice& choice : choices)
-        for (const auto& device : devices) {
+        for (const StressDevice& device : devices) {
             StressCell& cell = cells.emplace_back();
             cell.family = &family;
             cell.primitive = choice.primitive;
             cell.label = choice.label();
-            cell.device = device->name();
-            cell.precise = device->name() == "cpu-double";
+            cell.device = device.name();
+            cell.precise = device.name() == "cpu-double";
         }
     return cells;
 }
@@ -119,8 +125,7 @@ StressCell embree_cell(const StressFamily& family, uint64_t seed, uint64_t count
     cell.family = &family;
     cell.label = "Embree " + embree_version();
     cell.device = "round Bezier";
-    for (uint64_t first = 0; first < count; first += chunk_size) {
-        const StressRange range{&family, seed, first, std::min(chunk_size, count - first)};
+    for (const StressRange& range : stress_ranges(family, count, seed)) {
         const Surface surface = discs.primitive->surface(stress_strands(range), discs.options);
         const StressPairs pairs = stress_pairs(range, surface);
         add_errors(pairs, trace_pairs_with_embree(surface, pairs), keep, cell.tally);
@@ -137,32 +142,55 @@ std::vector<const StressFamily*> chosen_families(const std::vector<std::string>&
     return families;
 }
 
-int run(const Options& options) {
+StressRun make_run(const Options& options) {
     if (!(options.pairs >= 1 && options.pairs <= 1e15))
         fail(ExitCode::usage, "--pairs {}: must be a number from 1 to 1e15", options.pairs);
-    const auto families = chosen_families(options.families);
-    const std::vector<PrimitiveChoice> choices = options.primitives.choices();
-    const Devices devices = open_devices(options.devices);
-    const auto count = static_cast<uint64_t>(options.pairs);
+    if (options.self_intersection + options.watertight + !options.agree.empty() > 1)
+        fail(ExitCode::usage, "--self-intersection, --watertight, --agree: pass one of them");
+    if (!options.agree.empty() && options.agree != "cpu-float")
+        fail(ExitCode::usage, "--agree {}: devices are compared with cpu-float", options.agree);
+    StressRun run;
+    run.families = chosen_families(options.families);
+    run.choices = options.primitives.choices();
+    for (const std::string& name : options.devices.empty() ? default_devices(options) : options.devices)
+        run.devices.push_back(std::make_unique<TraceDevice>(DeviceOptions{name, false}));
+    run.pairs = static_cast<uint64_t>(options.pairs);
+    run.seed = options.seed;
+    run.json = options.json;
+    return run;
+}
+
+/// All cells of one family.
+void run_family(const StressRun& run, const StressFamily& family, const Options& options, Devices& devices,
+                Progress& progress, std::vector<StressCell>& all) {
+    const size_t keep = options.worst_folder.empty() ? 0 : options.worst;
+    std::vector<StressCell> cells = make_cells(family, run.choices, devices);
+    for (const StressRange& range : stress_ranges(family, run.pairs, run.seed))
+        run_chunk(range, run.choices, devices, keep, cells, progress);
+    for (size_t i = 0; i < cells.size(); ++i) {
+        StressCell& cell = cells[i];
+        auto limits = stress_limits(cell.primitive->name, family, cell.precise);
+        const bool is_driver = devices[i % devices.size()].device->gpu() != nullptr &&
+                               cell.primitive->shaders.intersection.empty();
+        if (is_driver && limits) limits->judged = false, limits->reason = "the driver's own triangle test";
+        cell.judgement = judge(cell.tally, limits, family, cell.precise);
+        if (keep > 0) write_worst(cell, run.seed, options.worst_folder);
+        all.push_back(std::move(cell));
+    }
     const uint64_t embree_count =
         embree_available() ? static_cast<uint64_t>(std::clamp(options.embree_pairs, 0.0, 1e15)) : 0;
-    const size_t keep = options.worst_folder.empty() ? 0 : options.worst;
+    if (embree_count > 0)
+        all.push_back(embree_cell(family, run.seed, std::min(embree_count, run.pairs), keep));
+}
+
+int run_errors(const StressRun& run, const Options& options) {
+    Devices devices;
+    for (const auto& device : run.devices) devices.push_back({device.get(), {}});
     std::vector<StressCell> all;
     {
-        Progress progress("stress", count * families.size() * choices.size());
-        for (const StressFamily* family : families) {
-            std::vector<StressCell> cells = make_cells(*family, choices, devices);
-            for (uint64_t first = 0; first < count; first += chunk_size)
-                run_chunk({family, options.seed, first, std::min(chunk_size, count - first)}, choices,
-                          devices, keep, cells, progress);
-            for (StressCell& cell : cells) {
-                cell.judgement = judge(cell.tally, stress_limits(cell.primitive->name, *family, cell.precise),
-                                       *family, cell.precise);
-                if (keep > 0) write_worst(cell, options.seed, options.worst_folder);
-                all.push_back(std::move(cell));
-            }
-            if (embree_count > 0) all.push_back(embree_cell(*family, options.seed, embree_count, keep));
-        }
+        Progress progress("stress", run.pairs * run.families.size() * run.choices.size());
+        for (const StressFamily* family : run.families)
+            run_family(run, *family, options, devices, progress, all);
     }
     std::fputs(stress_table(all).c_str(), stdout);
     std::fputs(stress_summary(all).c_str(), stdout);
@@ -174,6 +202,14 @@ int run(const Options& options) {
     return static_cast<int>(fails ? ExitCode::threshold : ExitCode::ok);
 }
 
+int run(const Options& options) {
+    const StressRun stress = make_run(options);
+    if (options.self_intersection) return run_self_intersection(stress);
+    if (options.watertight) return run_watertight(stress);
+    if (!options.agree.empty()) return run_agreement(stress);
+    return run_errors(stress, options);
+}
+
 RunCommand declare(CLI::App& app) {
     auto options = std::make_shared<Options>();
     options->primitives.add_to(app, true);
@@ -181,14 +217,23 @@ RunCommand declare(CLI::App& app) {
         ->allow_extra_args(false);
     app.add_option("--device", options->devices,
                    "cpu-float, cpu-double or a Vulkan device (see strandlab info), repeatable (default: the "
-                   "first two)")
+                   "first two; what --agree is about: the best Vulkan device)")
         ->allow_extra_args(false);
     app.add_option("--pairs", options->pairs, "pairs of every family; 1e8 takes a night")
         ->capture_default_str();
     app.add_option("--embree-pairs", options->embree_pairs,
-                   "pairs of every family for Embree's curves, where built in (0: none)")
+                   "at most so many pairs of every family for Embree's curves, where built in (0: none)")
         ->capture_default_str();
     app.add_option("--seed", options->seed, "other pairs for other seeds")->capture_default_str();
+    app.add_flag(
+        "--self-intersection", options->self_intersection,
+        "instead: rays that leave the hits, at the robust offset of each primitive and at smaller ones; "
+        "and whether shadow rays get the same answer");
+    app.add_flag("--watertight", options->watertight,
+                 "instead: whether the box of any leaf loses a hit that the intersector alone finds");
+    app.add_option(
+        "--agree", options->agree,
+        "cpu-float; instead: how far a Vulkan device's hits are from those of the C++ float version");
     app.add_option("--json", options->json, "write one JSON object a line and cell");
     app.add_option("--heat-map", options->heat_map, "write family x primitive as a picture (.svg)");
     app.add_option("--worst-folder", options->worst_folder,
@@ -201,7 +246,11 @@ constexpr const char* examples =
     "  strandlab stress                                      all primitives on this processor\n"
     "  strandlab stress --device llvmpipe --primitive lss    one on a Vulkan device\n"
     "  strandlab stress --family grazing --pairs 1e6 --json grazing.jsonl\n"
-    "  strandlab stress --primitive rocaps:variant=published --worst-folder worst --worst 3\n";
+    "  strandlab stress --primitive rocaps:variant=published --worst-folder worst --worst 3\n"
+    "  strandlab stress --self-intersection --pairs 2000     rays that leave a hit must not meet it again\n"
+    "  strandlab stress --watertight --pairs 2.5e5           boxes lose no hit: 11 million pairs a "
+    "primitive\n"
+    "  strandlab stress --agree cpu-float --device llvmpipe  a device's float against C++ float\n";
 
 }  // namespace
 

@@ -14,27 +14,17 @@
 namespace strandlab {
 namespace {
 
-std::string_view name_of(StressVerdict verdict) {
-    switch (verdict) {
-        case StressVerdict::holds: return "holds";
-        case StressVerdict::fails: return "FAILS";
-        case StressVerdict::not_judged: break;
-    }
-    return "not judged";
-}
-
 std::string percentile_text(const LogHistogram& values, double q) {
     return values.count() == 0 ? "-" : significant(values.quantile(q), 2);
 }
 
-/// "cpu-float", or a device's name without what follows in brackets.
-std::string short_name(const std::string& device) { return device.substr(0, device.find(" (")); }
-
-nlohmann::ordered_json rate_json(uint64_t count, uint64_t trials) {
-    const Interval bounds = binomial_bounds(count, trials);
-    return {{"count", count},
-            {"trials", trials},
-            {"bounds_95", {json_number(bounds.low), json_number(bounds.high)}}};
+nlohmann::ordered_json iterations_json(const IterationHistogram& iterations) {
+    if (iterations.count() == 0) return {};
+    return {{"mean", json_number(iterations.mean())},
+            {"p50", iterations.quantile(0.5)},
+            {"p99", iterations.quantile(0.99)},
+            {"max", iterations.max()},
+            {"rays_by_count", iterations.counts()}};
 }
 
 nlohmann::ordered_json cell_json(const StressCell& cell, uint64_t seed) {
@@ -53,15 +43,19 @@ nlohmann::ordered_json cell_json(const StressCell& cell, uint64_t seed) {
     object["false_hits"] = rate_json(t.false_hits, t.misses);
     object["wrong_places"] = rate_json(t.wrong_hits, t.hits);
     object["nan_hits"] = t.nan_hits;
+    object["wrong_where_discs_overlap"] = rate_json(t.folded_errors, t.folded);
     for (const auto& [key, q] :
          {std::pair("distance_p50", 0.5), {"distance_p99", 0.99}, {"distance_p999", 0.999}})
         object[key] = json_number(t.distance.quantile(q));
     object["distance_max"] = json_number(t.distance.max());
     object["ulp_p99"] = json_number(t.floor.quantile(0.99));
     object["lost_by_boxes"] = rate_json(t.boxes.lost, t.boxes.trials);
-    object["differs_from_cpu_float"] =
-        t.compared == 0 ? nlohmann::ordered_json() : rate_json(t.differing, t.compared);
-    object["verdict"] = name_of(cell.judgement.verdict);
+    object["outside_of_boxes"] = rate_json(t.boxes.outside, t.boxes.trials);
+    object["differs_from_cpu_float"] = t.agreement.pairs == 0
+                                           ? nlohmann::ordered_json()
+                                           : rate_json(t.agreement.beyond(), t.agreement.pairs);
+    object["iterations"] = iterations_json(t.iterations);
+    object["verdict"] = verdict_text(cell.judgement.verdict);
     object["reason"] = cell.judgement.text;
     return object;
 }
@@ -74,6 +68,30 @@ std::string file_name(std::string text) {
 }
 
 }  // namespace
+
+std::string_view verdict_text(StressVerdict verdict) {
+    switch (verdict) {
+        case StressVerdict::holds: return "holds";
+        case StressVerdict::fails: return "FAILS";
+        case StressVerdict::not_judged: break;
+    }
+    return "not judged";
+}
+
+std::string device_text(const std::string& name) { return name.substr(0, name.find(" (")); }
+
+nlohmann::ordered_json rate_json(uint64_t count, uint64_t trials) {
+    const Interval bounds = binomial_bounds(count, trials);
+    return {{"count", count},
+            {"trials", trials},
+            {"bounds_95", {json_number(bounds.low), json_number(bounds.high)}}};
+}
+
+std::string iterations_text(const IterationHistogram& iterations) {
+    if (iterations.count() == 0) return "-";
+    return fmt::format("{} / {} / {}", significant(iterations.mean()), iterations.quantile(0.99),
+                       iterations.max());
+}
 
 std::string stress_family_help() {
     std::string text = "Families (--family NAME):\n";
@@ -97,40 +115,51 @@ std::string stress_table(std::span<const StressCell> cells) {
                  {"dt p99", "radii"},
                  {"lost by box"},
                  {"not as C++"},
+                 {"iterations", "mean / p99 / max"},
+                 {"NaN"},
                  {"verdict", "", true}},
                 3);
     for (const StressCell& cell : cells) {
         const StressTally& t = cell.tally;
         table.add_row(
-            {cell.family->name, cell.label, short_name(cell.device), grouped(t.hits), grouped(t.misses),
+            {cell.family->name, cell.label, device_text(cell.device), grouped(t.hits), grouped(t.misses),
              percent(double(t.undecided()) / double(std::max<uint64_t>(1, t.pairs))), grouped(t.false_misses),
              grouped(t.false_hits), grouped(t.wrong_hits), percentile_text(t.distance, 0.5),
              percentile_text(t.distance, 0.99), grouped(t.boxes.lost),
-             t.compared == 0 ? "-" : grouped(t.differing), std::string(name_of(cell.judgement.verdict))});
+             t.agreement.pairs == 0 ? "-" : grouped(t.agreement.beyond()), iterations_text(t.iterations),
+             grouped(t.nan_hits), std::string(verdict_text(cell.judgement.verdict))});
     }
     return table.to_string(standard_output_style());
 }
 
 std::string stress_summary(std::span<const StressCell> cells) {
     uint64_t holds = 0, fails = 0, not_judged = 0;
-    BoxCheck leaves, rays;
-    std::string failures;
+    BoxCheck leaves;
+    Agreement agreement;
+    std::string failures, folds;
     for (const StressCell& cell : cells) {
         const StressVerdict verdict = cell.judgement.verdict;
         ++(verdict == StressVerdict::holds ? holds : verdict == StressVerdict::fails ? fails : not_judged);
-        (cell.tally.compared == 0 ? leaves : rays).add(cell.tally.boxes);
+        leaves.add(cell.tally.boxes);
+        agreement.only_cpu += cell.tally.agreement.only_cpu;
+        agreement.both_hit += cell.tally.agreement.both_hit;
+        if (cell.tally.folded_errors > 0)
+            folds += fmt::format("discs overlap: {}, {}, {}: {} of {} hits there are wrong, not judged\n",
+                                 cell.family->name, cell.label, device_text(cell.device),
+                                 grouped(cell.tally.folded_errors), grouped(cell.tally.folded));
         if (verdict == StressVerdict::fails)
             failures += fmt::format("FAILS: {}, {}, {}: {}\n", cell.family->name, cell.label,
-                                    short_name(cell.device), cell.judgement.text);
+                                    device_text(cell.device), cell.judgement.text);
     }
     std::string text = fmt::format("\n{} hold, {} fail, {} are not judged\n", holds, fails, not_judged);
     if (leaves.trials > 0)
-        text += fmt::format("boxes: {} of {} leaf hits lost by a slab test in float\n", grouped(leaves.lost),
-                            grouped(leaves.trials));
-    if (rays.trials > 0)
-        text += fmt::format("boxes: {} of {} hits of the C++ float version not found on the device\n",
-                            grouped(rays.lost), grouped(rays.trials));
-    return text + failures;
+        text +=
+            fmt::format("boxes: {} of {} leaf hits lost by a slab test in float, {} outside of their box\n",
+                        grouped(leaves.lost), grouped(leaves.trials), grouped(leaves.outside));
+    if (agreement.only_cpu + agreement.both_hit > 0)
+        text += fmt::format("devices: {} of {} hits of the C++ float version not found\n",
+                            grouped(agreement.only_cpu), grouped(agreement.only_cpu + agreement.both_hit));
+    return text + folds + failures;
 }
 
 std::string stress_json(std::span<const StressCell> cells, uint64_t seed) {
@@ -146,7 +175,7 @@ void write_worst(const StressCell& cell, uint64_t seed, const std::string& folde
     for (const WorstPair& pair : cell.tally.worst) {
         const std::string stem =
             fmt::format("{}/{}.{}.{}.{}", folder, file_name(cell.family->name), file_name(cell.label),
-                        file_name(short_name(cell.device)), pair.index);
+                        file_name(device_text(cell.device)), pair.index);
         const std::vector<Curve> strand = make_strand(*cell.family, seed, pair.index);
         write_npy<Curve>(stem + ".curves.npy", {"<f4", {4, 4}}, strand);
         write_npy(stem + ".rays.npy", {"<f4", {8}}, &pair.ray, 1);

@@ -4,8 +4,11 @@
 #include "measure/stress.h"
 #include "measure/stress_limits.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace strandlab {
 
@@ -19,6 +22,18 @@ struct StressCell {
     StressTally tally;
     StressJudgement judgement;
 };
+
+/// "holds", "FAILS" or "not judged".
+std::string_view verdict_text(StressVerdict verdict);
+
+/// A device's name without what follows in brackets.
+std::string device_text(const std::string& name);
+
+/// "mean / p99 / max" of the iterations per ray; "-" without any.
+std::string iterations_text(const IterationHistogram& iterations);
+
+/// A count with the number of trials and the 95 % bounds of its rate.
+nlohmann::ordered_json rate_json(uint64_t count, uint64_t trials);
 
 /// The families with one line each, for the help.
 std::string stress_family_help();

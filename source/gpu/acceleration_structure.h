@@ -6,7 +6,9 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace strandlab {
 
@@ -68,5 +70,16 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
 /// Builds the structure over instances of built structures.
 AccelerationStructure build_top_level(const Device& device, std::span<const InstanceInput> instances,
                                       BuildCost& cost);
+
+/// Many small structures at once, in a few submissions and allocations, which they share. Not compacted.
+/// Inputs of triangles must have one and the same vertices.
+std::vector<AccelerationStructure> build_bottom_levels(const Device& device,
+                                                       std::span<const BottomLevelInput> inputs,
+                                                       BuildCost& cost);
+
+/// Top-level structures of one instance each.
+std::vector<AccelerationStructure> build_top_levels(const Device& device,
+                                                    std::span<const InstanceInput> instances,
+                                                    BuildCost& cost);
 
 }  // namespace strandlab

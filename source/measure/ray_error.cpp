@@ -25,12 +25,6 @@ double relative(double distance, double size) { return distance == 0 ? 0.0 : dis
 
 }  // namespace
 
-double float_ulp(double t) {
-    if (!std::isfinite(t)) return undefined;
-    const int exponent = t == 0 ? -126 : std::max(std::ilogb(t), -126);
-    return std::ldexp(1.0, exponent - 23);
-}
-
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     const double sine = glm::length(glm::cross(a, b)), cosine = glm::dot(a, b);
     // Both are 0 exactly when a vector is zero: no angle.

@@ -1,6 +1,7 @@
 // The error of one ray: its outcome and, where the same place was hit, by how much it is off.
 #pragma once
 
+#include "base/float_ulp.h"
 #include "scene/hits.h"
 #include "scene/rays.h"
 #include "strands/curves.h"
@@ -102,9 +103,6 @@ class RayErrors {
     const ComparisonInput& input_;
     std::vector<glm::dmat4> object_from_world_;
 };
-
-/// Spacing of floats at |t|, as a double; NaN for a t that is not finite.
-double float_ulp(double t);
 
 /// Angle in degrees between two vectors of any length, accurate for small angles; NaN when one is zero or
 /// not finite.

@@ -1,36 +1,16 @@
 #include "measure/stress.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "measure/ray_error.h"
+#include "measure/stress_leaves.h"
+#include "strands/bezier.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace strandlab {
 namespace {
-
-/// The leaves of every strand, in ascending order.
-class StrandLeaves {
-  public:
-    StrandLeaves(const Geometry& geometry, uint64_t strands, uint32_t curves)
-        : first_(strands + 1, 0), leaves_(geometry.leaf_count()) {
-        for (const Leaf& leaf : geometry.leaves) ++first_[leaf.curve / curves + 1];
-        for (size_t i = 0; i < strands; ++i) first_[i + 1] += first_[i];
-        std::vector<size_t> next(first_.begin(), first_.end() - 1);
-        for (uint32_t i = 0; i < leaves_.size(); ++i) leaves_[next[geometry.leaves[i].curve / curves]++] = i;
-    }
-    std::span<const uint32_t> of(size_t strand) const {
-        return std::span(leaves_).subspan(first_[strand], first_[strand + 1] - first_[strand]);
-    }
-
-  private:
-    std::vector<size_t> first_;
-    std::vector<uint32_t> leaves_;
-};
 
 /// The textbook slab test in float, as a driver may do it: with no margin of its own.
 bool slab_hit(const Box& box, const Ray& ray) {
@@ -45,24 +25,34 @@ bool slab_hit(const Box& box, const Ray& ray) {
     return enter <= leave;
 }
 
-/// The nearest hit over some leaves; counts leaf hits and those whose box the ray misses.
-template <class Real, class Intersect, class Finish>
-StressHit nearest(const Geometry& geometry, std::span<const uint32_t> leaves, std::span<const Box> boxes,
-                  const Ray& ray, Intersect intersect, Finish finish, BoxCheck& check) {
-    LeafHit<Real> best;
-    uint32_t best_leaf = no_curve;
-    for (const uint32_t leaf : leaves) {
-        LeafHit<Real> hit;
-        const Real limit = best_leaf == no_curve ? Real(ray.tmax) : best.t;
-        if (!intersect(geometry, leaf, ray, limit, hit)) continue;
-        ++check.trials;
-        if (!slab_hit(boxes[leaf], ray)) ++check.lost;
-        best = hit;
-        best_leaf = leaf;
+/// Whether the point of a hit lies in a box; in extended precision the product of two floats is exact.
+template <class Real>
+bool holds(const Box& box, const Ray& ray, Real t) {
+    for (int i = 0; i < 3; ++i) {
+        using Wide = long double;
+        const Wide x = Wide(ray.origin[i]) + Wide(t) * Wide(ray.direction[i]);
+        if (!(x >= Wide(box.low[i]) && x <= Wide(box.high[i]))) return false;
     }
-    if (best_leaf == no_curve) return {};
-    if (finish != nullptr) finish(geometry, best_leaf, ray, best);
-    return {double(best.t), true};
+    return true;
+}
+
+/// The nearest hit over a strand's leaves, finished; counts leaf hits and those that their boxes would lose.
+template <class Real>
+StressHit checked_hit(const Primitive& primitive, const Geometry& geometry, std::span<const uint32_t> leaves,
+                      std::span<const Box> boxes, const Ray& ray, BoxCheck& check) {
+    const auto count = [&](uint32_t leaf, const LeafHit<Real>& hit) {
+        ++check.trials;
+        check.lost += !slab_hit(boxes[leaf], ray);
+        check.outside += !holds(boxes[leaf], ray, hit.t);
+    };
+    NearestHit<Real> best = nearest_hit<Real>(primitive.cpu, geometry, leaves, ray, count);
+    if (!best.found()) return {};
+    if constexpr (std::is_same_v<Real, float>) {
+        if (primitive.cpu.finish_single) primitive.cpu.finish_single(geometry, best.leaf, ray, best.hit);
+    } else {
+        if (primitive.cpu.finish_precise) primitive.cpu.finish_precise(geometry, best.leaf, ray, best.hit);
+    }
+    return {double(best.hit.t), double(best.hit.u), geometry.leaves[best.leaf].curve};
 }
 
 /// How wrong one answer is; 0: right, or within the right place.
@@ -78,14 +68,23 @@ void keep_worst(std::vector<WorstPair>& worst, const WorstPair& pair, size_t kee
     worst.insert(std::upper_bound(worst.begin(), worst.end(), pair, worse), pair);
 }
 
+/// Adds a decisive hit where discs overlap; returns how wrong it is.
+double add_folded(const StressAnswer& answer, const StressHit& hit, double length, StressTally& tally) {
+    ++tally.folded;
+    const double error = hit.is_hit() ? std::abs(hit.t - answer.t) * length / answer.radius : missed;
+    const bool wrong = hit.is_hit() ? answer.decisive_place && !(error <= 0.5) : true;
+    tally.folded_errors += wrong;
+    return wrong ? std::min(error, missed) : 0;
+}
+
 /// Adds one decisive pair; returns how wrong it is.
 double add_error(const StressAnswer& answer, const StressHit& hit, double length, StressTally& tally) {
     ++(answer.is_hit ? tally.hits : tally.misses);
-    if (hit.is_hit && !std::isfinite(hit.t)) {
+    if (hit.is_hit() && !std::isfinite(hit.t)) {
         ++tally.nan_hits;
         return not_a_number;
     }
-    if (hit.is_hit != answer.is_hit) {
+    if (hit.is_hit() != answer.is_hit) {
         ++(answer.is_hit ? tally.false_misses : tally.false_hits);
         return missed;
     }
@@ -105,32 +104,40 @@ double add_error(const StressAnswer& answer, const StressHit& hit, double length
 
 std::vector<StressHit> intersect_pairs(const Primitive& primitive, const Geometry& geometry,
                                        const StressPairs& pairs, Precision precision, BoxCheck& checks) {
-    if (primitive.cpu.single == nullptr || primitive.cpu.precise == nullptr)
-        fail(ExitCode::usage, "primitive {}: has no C++ intersector; name another one", primitive.name);
+    require_cpu_version(primitive);
     const StrandLeaves leaves(geometry, pairs.range.count, pairs.range.family->curves);
-    float extent = 0;
-    for (const Ray& ray : pairs.rays)
-        for (int i = 0; i < 3; ++i)
-            if (is_valid(ray)) extent = std::max(extent, std::abs(ray.origin[i]));
+    const float extent = extent_of(pairs.rays);
     std::vector<Box> boxes = leaf_boxes(geometry);
     parallel_for(boxes.size(), [&](size_t i) { boxes[i] = padded(boxes[i], extent); });
     std::vector<StressHit> hits(pairs.rays.size());
-    std::atomic<uint64_t> lost{0}, trials{0};
+    std::vector<BoxCheck> found(pairs.rays.size());
     parallel_for(hits.size(), [&](size_t i) {
         const Ray& ray = pairs.rays[i];
         if (!is_valid(ray)) return;
-        BoxCheck check;
         hits[i] = precision == Precision::single
-                      ? nearest<float>(geometry, leaves.of(i), boxes, ray, primitive.cpu.single,
-                                       primitive.cpu.finish_single, check)
-                      : nearest<double>(geometry, leaves.of(i), boxes, ray, primitive.cpu.precise,
-                                        primitive.cpu.finish_precise, check);
-        if (check.trials == 0) return;
-        trials += check.trials;
-        if (check.lost > 0) lost += check.lost;
+                      ? checked_hit<float>(primitive, geometry, leaves.of(i), boxes, ray, found[i])
+                      : checked_hit<double>(primitive, geometry, leaves.of(i), boxes, ray, found[i]);
     });
-    checks.add({lost, trials});
+    for (const BoxCheck& check : found) checks.add(check);
     return hits;
+}
+
+void count_iterations(const Primitive& primitive, const Geometry& geometry, const StressPairs& pairs,
+                      IterationHistogram& iterations) {
+    if (primitive.cpu.counted == nullptr) return;
+    const StrandLeaves leaves(geometry, pairs.range.count, pairs.range.family->curves);
+    std::vector<uint32_t> counts(pairs.rays.size(), 0);
+    parallel_for(counts.size(), [&](size_t i) {
+        const Ray& ray = pairs.rays[i];
+        if (!is_valid(ray)) return;
+        float limit = ray.tmax;
+        for (const uint32_t leaf : leaves.of(i)) {
+            LeafHit<float> hit;
+            if (primitive.cpu.counted(geometry, leaf, ray, limit, hit, counts[i])) limit = hit.t;
+        }
+    });
+    for (size_t i = 0; i < counts.size(); ++i)
+        if (is_valid(pairs.rays[i])) iterations.add(counts[i]);
 }
 
 void add_errors(const StressPairs& pairs, std::span<const StressHit> hits, size_t keep, StressTally& tally) {
@@ -141,28 +148,35 @@ void add_errors(const StressPairs& pairs, std::span<const StressHit> hits, size_
         tally.margin.add(answer.margin);
         const double length = glm::length(glm::dvec3(pairs.rays[i].direction));
         double error = 0;
-        if (answer.decisive)
+        if (answer.decisive && answer.folded && !(hits[i].is_hit() && !std::isfinite(hits[i].t)))
+            error = add_folded(answer, hits[i], length, tally);
+        else if (answer.decisive)
             error = add_error(answer, hits[i], length, tally);
-        else if (hits[i].is_hit && !std::isfinite(hits[i].t))
+        else if (hits[i].is_hit() && !std::isfinite(hits[i].t))
             ++tally.nan_hits, error = not_a_number;
         keep_worst(tally.worst, {error, pairs.range.first + i, pairs.rays[i]}, keep);
     }
 }
 
-void add_difference(const StressPairs& pairs, std::span<const StressHit> device,
-                    std::span<const StressHit> plain, StressTally& tally) {
+void add_difference(const Curves& curves, std::span<const Ray> rays, std::span<const StressHit> device,
+                    std::span<const StressHit> plain, Agreement& agreement) {
     for (size_t i = 0; i < device.size(); ++i) {
         const StressHit &a = device[i], &b = plain[i];
-        ++tally.compared;
-        if (b.is_hit) tally.boxes.add({a.is_hit ? 0u : 1u, 1u});
-        if (a.is_hit != b.is_hit) {
-            ++tally.differing;
-        } else if (a.is_hit) {
-            const double length = glm::length(glm::dvec3(pairs.rays[i].direction));
-            const double allowed =
-                std::max(4 * float_ulp(b.t), 1e-4 * pairs.answers[i].radius / std::max(length, 1e-300));
-            if (!(std::abs(a.t - b.t) <= allowed)) ++tally.differing;
+        ++agreement.pairs;
+        if (!a.is_hit() || !b.is_hit()) {
+            agreement.only_device += a.is_hit();
+            agreement.only_cpu += b.is_hit();
+            continue;
         }
+        ++agreement.both_hit;
+        const double length = glm::length(glm::dvec3(rays[i].direction));
+        const double radius = std::abs(point_at(to_double(curves.curves[b.curve]), b.u).w);
+        const double difference = std::abs(a.t - b.t), ulp = float_ulp(b.t);
+        // Where nothing differs nothing is divided, by a radius or length of 0.
+        const auto relative = [&](double unit) { return difference == 0 ? 0 : difference / unit; };
+        agreement.ulps.add(relative(ulp));
+        agreement.radii.add(relative(radius / length));
+        agreement.allowed.add(relative(std::max(4 * ulp, 1e-4 * radius / length)));
     }
 }
 

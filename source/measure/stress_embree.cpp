@@ -14,7 +14,7 @@ std::vector<StressHit> trace_pairs_with_embree(const Surface& surface, const Str
         const EmbreeScene scene(parts[i]);
         Hit hit;
         scene.trace(std::span(&pairs.rays[i], 1), std::span(&hit, 1));
-        hits[i] = {double(hit.t), hit.is_hit()};
+        hits[i] = {double(hit.t), double(hit.u), hit.curve};
     });
     return hits;
 }

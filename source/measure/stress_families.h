@@ -45,6 +45,7 @@ struct StressFamily {
     Shape shape = Shape::smooth;
     Instance instance = Instance::none;
     bool inside = false;        // the ray starts within the tube
+    bool returns = false;       // and is aimed at another part of the strand
     bool at_joints = false;     // the ray is aimed at a joint
     bool axis_aligned = false;  // directions along axes and diagonals
     bool short_ray = false;     // tmin or tmax lies near the surface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "measure/stress.h"
+#include "measure/stress_spawn.h"
 
 #include <optional>
 #include <string>
@@ -36,6 +37,22 @@ struct StressJudgement {
 /// never allowed.
 StressJudgement judge(const StressTally& tally, const std::optional<StressLimits>& limits,
                       const StressFamily& family, bool precise);
+
+/// Whether a device agrees with the C++ float version: at most one hit in a thousand (its 95 % lower bound)
+/// differs by more than max(4 ulp of t, 1e-4 r) or in hit or miss. Not judged where the text is not what
+/// decides: triangles, which the driver intersects, published variants, whose frame rounds as a compiler
+/// contracts it, and families that float cannot resolve.
+StressJudgement judge_agreement(const Agreement& agreement, const PrimitiveChoice& choice,
+                                const StressFamily& family);
+
+/// Why the place of a hit is not known to a radius or better, whatever the intersector does: families that
+/// float cannot resolve, and triangles at radii of 1e-4 lengths and less. Empty where it is.
+std::string_view unknown_places(const Primitive& primitive, const StressFamily& family);
+
+/// Whether rays leave a primitive's hits: no self-hit at its own offset, and no shadow ray whose hit or miss
+/// is another than that of the closest hit. Not judged where places are unknown.
+StressJudgement judge_spawned(const SpawnTally& tally, const Primitive& primitive,
+                              const StressFamily& family);
 
 /// Above this the surface is too small for its coordinates: the median margin of a resolvable cell.
 inline constexpr double largest_stress_margin = 0.1;

@@ -187,6 +187,15 @@ void shorten(Ray& ray, double distance, double radius, Random& random) {
     (random.below(2) == 0 ? ray.tmin : ray.tmax) = t;
 }
 
+/// The direction from a place within the strand to within a radius and a half of any other place of it.
+glm::dvec3 towards_another_part(std::span<const StressTarget> targets, const glm::dvec3& origin,
+                                const glm::dvec3& otherwise, Random& random) {
+    const StressTarget& target = targets[random.below(static_cast<uint32_t>(targets.size()))];
+    const glm::dvec4 point = point_at(target.axis, random.uniform());
+    const glm::dvec3 aim = glm::dvec3(point) + random_direction(random) * (1.5 * point.w * random.uniform());
+    return glm::length(aim - origin) > 2 * point.w ? glm::normalize(aim - origin) : otherwise;
+}
+
 Ray draw_ray(const Family& family, std::span<const StressTarget> targets, Random& random) {
     assert(!targets.empty());
     const auto count = static_cast<uint32_t>(targets.size());
@@ -208,6 +217,7 @@ Ray draw_ray(const Family& family, std::span<const StressTarget> targets, Random
                       : family.unit * log_uniform(random, family.distance_low, family.distance_high);
     const glm::dvec3 aim = glm::dvec3(point) + aside * lateral;
     glm::dvec3 origin = aim - direction * distance;
+    if (family.returns) direction = towards_another_part(targets, origin, direction, random);
     // Far from the world's origin the ray's own origin is rounded by more than a radius: aim from there.
     if (family.offset > 0 && family.offset != 1e4) {
         origin = glm::dvec3(glm::vec3(origin));

@@ -1,12 +1,14 @@
 // Rays aimed at a surface, and the oracle's answers for them.
 #include "base/parallel.h"
 #include "measure/stress.h"
+#include "strands/bezier.h"
 #include "trace/oracle.h"
 #include "trace/surface_variation.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace strandlab {
 namespace {
@@ -71,7 +73,24 @@ oracle::ExactRay stretched(const Ray& ray, double ulps) {
     return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), moved(ray.tmin, -1), moved(ray.tmax, 1)};
 }
 
-StressAnswer answer(const Surface& part, const Ray& ray) {
+/// Radius times curvature of the axis at a hit.
+double bend_at(const Surface& part, const ReferenceHit& hit) {
+    const SurfacePiece* piece = piece_at(part, hit.curve, hit.u);
+    if (piece == nullptr || piece->straight) return 0;
+    const CurveD c = to_double(piece->control);
+    const glm::dvec3 d(derivative_at(c, hit.u)), second(second_derivative_at(c, hit.u));
+    const double speed = glm::length(d);
+    return hit.radius * glm::length(glm::cross(d, second)) / (speed * speed * speed);
+}
+
+/// The surface whose ends at kinks move as open ends of strands do.
+Surface opened_at_kinks(const Surface& part) {
+    Surface opened = part;
+    for (SurfacePiece& piece : opened.pieces) piece.begins_strand = piece.ends_strand = true;
+    return opened;
+}
+
+StressAnswer answer(const Surface& part, const Ray& ray, bool has_kinks) {
     StressAnswer result;
     const Size size = size_of(part);
     const double least = ulp_margin * oracle::float_ulp(size.coordinate);
@@ -82,8 +101,11 @@ StressAnswer answer(const Surface& part, const Ray& ray) {
     }
     const OracleOptions larger{1 + radius_margin, ulp_margin, end_margin};
     const OracleOptions smaller{1 - radius_margin, ulp_margin, -end_margin};
-    const Oracle oracle(part, larger);
-    const ReferenceHit hit = oracle.trace(ray, OracleOptions{});
+    const bool opens = has_kinks && part.sweep == Surface::Sweep::disc && part.caps == Caps::open;
+    const Surface opened = opens ? opened_at_kinks(part) : Surface{};
+    const Surface& varied = opens ? opened : part;
+    const Oracle oracle(varied, larger);
+    const ReferenceHit hit = opens ? Oracle(part).trace(ray) : oracle.trace(ray, OracleOptions{});
     const ReferenceHit outer = oracle.trace(stretched(ray, ulp_margin), larger);
     const oracle::ExactRay shorter = stretched(ray, -ulp_margin);
     const ReferenceHit inner = shorter.tmin <= shorter.tmax ? oracle.trace(shorter, smaller) : ReferenceHit{};
@@ -99,10 +121,23 @@ StressAnswer answer(const Surface& part, const Ray& ray) {
     result.decisive = !vanishes && same(outer) && same(inner) && outer.starts_inside == hit.starts_inside &&
                       inner.starts_inside == hit.starts_inside;
     result.decisive_place = result.decisive && same_place(outer) && same_place(inner);
+    result.folded = hit.is_hit() && part.sweep == Surface::Sweep::disc && !(bend_at(part, hit) < most_bend);
     return result;
 }
 
 }  // namespace
+
+const SurfacePiece* piece_at(const Surface& surface, uint32_t curve, double u) {
+    const SurfacePiece* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const SurfacePiece& piece : surface.pieces) {
+        const double away = std::max({0.0, double(piece.u0) - u, u - double(piece.u1)});
+        if (piece.curve != curve || !(away < least)) continue;
+        best = &piece;
+        least = away;
+    }
+    return best;
+}
 
 std::vector<Surface> strand_surfaces(const Surface& surface, uint64_t strands, uint32_t curves) {
     std::vector<Surface> parts(strands);
@@ -127,12 +162,21 @@ Curves stress_strands(const StressRange& range) {
     return curves;
 }
 
+StressPairs aimed_pairs(const StressRange& range, const Surface& surface) {
+    const std::vector<Surface> parts = strand_surfaces(surface, range.count, range.family->curves);
+    StressPairs pairs{range, std::vector<Ray>(range.count), {}};
+    parallel_for(range.count, [&](size_t i) {
+        pairs.rays[i] = make_ray(*range.family, range.seed, range.first + i, targets_of(parts[i]));
+    });
+    return pairs;
+}
+
 StressPairs stress_pairs(const StressRange& range, const Surface& surface) {
     const std::vector<Surface> parts = strand_surfaces(surface, range.count, range.family->curves);
     StressPairs pairs{range, std::vector<Ray>(range.count), std::vector<StressAnswer>(range.count)};
     parallel_for(range.count, [&](size_t i) {
         pairs.rays[i] = make_ray(*range.family, range.seed, range.first + i, targets_of(parts[i]));
-        pairs.answers[i] = answer(parts[i], pairs.rays[i]);
+        pairs.answers[i] = answer(parts[i], pairs.rays[i], range.family->kink > 0);
     });
     return pairs;
 }

@@ -214,8 +214,11 @@ Tolerance tolerance(const BuildOptions& options) {
     if (options.parameters.is("offset", "none"))
         return {.wrong = 5e-4,
                 .distance_p99 = 2e-2,
-                .reason = "the driver's own triangle test rounds in world space"};
-    return {0.5, 1e3, "offset=round moves hits off the triangles that they are compared with"};
+                .reason =
+                    "the driver's own triangle test: on an H100 it was wrong on up to 0.025 % and off by "
+                    "0.012 radii (p99)"};
+    return {.reason = "offset=round moves hits off the triangles that they are compared with",
+            .judged = false};
 }
 
 }  // namespace
@@ -230,6 +233,7 @@ Primitive dots() {
         .build = build,
         .shaders = {.intersection = "", .closest_hit = "dots.rchit", .any_hit = ""},
         .cpu = dots_cpu(),
+        .spawn = {.radii = 0.01, .ulps = 16},
         .tolerance = tolerance,
     };
 }

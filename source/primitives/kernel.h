@@ -19,6 +19,10 @@
 #define INOUT(T) T&
 #define PRECISE
 #define FUNCTION static inline
+// One iteration of a search. Kernels that can be asked for their iterations have a second template parameter
+// `bool counts`; without it the line is gone.
+#define COUNT_ITERATION \
+    if constexpr (counts) ++iteration_count;
 
 // real3(v) converts and real3(x, y, z) constructs, as in GLSL.
 #define STRANDLAB_KERNEL_TYPES                                                                        \
@@ -31,6 +35,9 @@
     static constexpr real real_epsilon = std::numeric_limits<real>::epsilon();
 
 namespace strandlab::kernels {
+
+/// Iterations of counting kernels on this thread.
+inline thread_local uint32_t iteration_count = 0;
 
 // The functions of GLSL that kernels use, for scalars and vectors.
 using glm::abs;

@@ -76,6 +76,7 @@ Primitive lss() {
         .build = build,
         .shaders = {.intersection = "lss.rint", .closest_hit = "curve.rchit", .any_hit = ""},
         .cpu = {intersect<float>, intersect<double>},
+        .spawn = {.radii = 1e-3, .ulps = 8},
     };
 }
 

@@ -6,7 +6,7 @@
 namespace strandlab {
 namespace kernels {
 
-template <class real>
+template <class real, bool counts>
 struct PrhiKernel {
     STRANDLAB_KERNEL_TYPES
 #include "shaders/shared/ray_frame.h"
@@ -21,9 +21,9 @@ enum ConstantId : uint32_t { robust = 16, iterations = 17, flat_ends = 18 };
 
 constexpr double quarter_turn = 1.5707963267948966;
 
-template <class Real>
+template <class Real, bool counts = false>
 bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax, LeafHit<Real>& hit) {
-    using Kernel = kernels::PrhiKernel<Real>;
+    using Kernel = kernels::PrhiKernel<Real, counts>;
     using Real3 = glm::vec<3, Real>;
     using Real4 = glm::vec<4, Real>;
     const Leaf leaf = geometry.leaves[index];
@@ -34,6 +34,14 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
                                   geometry.constant(robust) != 0, geometry.constant(iterations),
                                   flat && (leaf.flags() & Leaf::begins_strand),
                                   flat && (leaf.flags() & Leaf::ends_strand), hit.t, hit.u, hit.normal);
+}
+
+bool counted(const Geometry& geometry, size_t index, const Ray& ray, float tmax, LeafHit<float>& hit,
+             uint32_t& iterations) {
+    kernels::iteration_count = 0;
+    const bool found = intersect<float, true>(geometry, index, ray, tmax, hit);
+    iterations += kernels::iteration_count;
+    return found;
 }
 
 Surface surface(const Curves& curves, const BuildOptions& options) {
@@ -83,7 +91,8 @@ std::vector<ParameterInfo> parameters() {
 
 Tolerance tolerance(const BuildOptions& options) {
     if (is_robust(options.parameters)) return {};
-    return {0.5, 10, "the published frame rounds to ulps of the distance, and misses burn all iterations"};
+    return {.reason = "the published frame rounds to ulps of the distance, and misses burn all iterations",
+            .judged = false};
 }
 
 }  // namespace
@@ -97,7 +106,8 @@ Primitive prhi() {
         .surface = surface,
         .build = build,
         .shaders = {.intersection = "prhi.rint", .closest_hit = "curve.rchit", .any_hit = ""},
-        .cpu = {intersect<float>, intersect<double>},
+        .cpu = {.single = intersect<float>, .precise = intersect<double>, .counted = counted},
+        .spawn = {.radii = 0.01, .ulps = 16},
         .tolerance = tolerance,
     };
 }

@@ -6,6 +6,7 @@
 #include "scene/caps.h"
 #include "scene/geometry.h"
 #include "scene/rays.h"
+#include "scene/spawn.h"
 #include "scene/surface.h"
 #include "strands/curves.h"
 
@@ -41,6 +42,11 @@ struct CpuIntersectors {
     /// most primitives; then the hit stays as it is.
     void (*finish_single)(const Geometry&, size_t leaf, const Ray&, LeafHit<float>&) = nullptr;
     void (*finish_precise)(const Geometry&, size_t leaf, const Ray&, LeafHit<double>&) = nullptr;
+
+    /// single, which adds the iterations of its search (cones or capsules tried, steps of refinement). None
+    /// for closed forms.
+    bool (*counted)(const Geometry&, size_t leaf, const Ray&, float tmax, LeafHit<float>&,
+                    uint32_t& iterations) = nullptr;
 };
 
 /// What a primitive promises on decisive rays of ordinary hair, against its own surface: what `validate`
@@ -48,7 +54,8 @@ struct CpuIntersectors {
 struct Tolerance {
     double wrong = 1e-4;         // share of rays with a wrong hit, miss, strand or place
     double distance_p99 = 1e-3;  // |dt| in radii; 1.5 times the p99 of ulp(t) / r where that is more
-    std::string reason = {};     // why it is looser than that
+    std::string reason = {};     // why it is looser than that, or not judged
+    bool judged = true;          // false: errors are shown, and nothing is promised
 };
 
 /// What a caller asks of a primitive besides its parameters.
@@ -72,6 +79,8 @@ struct Primitive {
     Geometry (*build)(const Curves&, const BuildOptions&) = nullptr;
     PrimitiveShaders shaders;
     CpuIntersectors cpu;
+    /// Where rays that leave its hits start; `stress --self-intersection` holds it to that.
+    SpawnOffset spawn = common_spawn_offset;
     /// What it promises with these options; none: the defaults of Tolerance.
     Tolerance (*tolerance)(const BuildOptions&) = nullptr;
 };

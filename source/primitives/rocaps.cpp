@@ -11,7 +11,7 @@
 namespace strandlab {
 namespace kernels {
 
-template <class real>
+template <class real, bool counts>
 struct RocapsKernel {
     STRANDLAB_KERNEL_TYPES
 #include "shaders/shared/ray_frame.h"
@@ -32,9 +32,9 @@ glm::vec<4, Real> control_point(const glm::vec4& stored) {
     return {stored.x, stored.y, stored.z, std::abs(stored.w)};
 }
 
-template <class Real>
+template <class Real, bool counts = false>
 bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax, LeafHit<Real>& hit) {
-    using Kernel = kernels::RocapsKernel<Real>;
+    using Kernel = kernels::RocapsKernel<Real, counts>;
     const Leaf leaf = geometry.leaves[index];
     const Curve& record = curve_record(geometry, leaf);
     const glm::vec<3, Real> origin(ray.origin), direction(ray.direction);
@@ -64,6 +64,14 @@ std::vector<ParameterInfo> parameters() {
              .low = 0.001,
              .high = 0.5},
             splits};
+}
+
+bool counted(const Geometry& geometry, size_t index, const Ray& ray, float tmax, LeafHit<float>& hit,
+             uint32_t& iterations) {
+    kernels::iteration_count = 0;
+    const bool found = intersect<float, true>(geometry, index, ray, tmax, hit);
+    iterations += kernels::iteration_count;
+    return found;
 }
 
 Surface surface(const Curves& curves, const BuildOptions& options) {
@@ -96,8 +104,9 @@ Geometry build(const Curves& curves, const BuildOptions& options) {
 
 Tolerance tolerance(const BuildOptions& options) {
     if (options.parameters.is("variant", "verified")) return {};
-    return {0.5, 10,
-            "published capsules are chords of the bend, and their frame rounds to ulps of the distance"};
+    return {
+        .reason = "published capsules are chords of the bend, and their frame rounds to ulps of the distance",
+        .judged = false};
 }
 
 }  // namespace
@@ -111,7 +120,8 @@ Primitive rocaps() {
         .surface = surface,
         .build = build,
         .shaders = {.intersection = "rocaps.rint", .closest_hit = "curve.rchit", .any_hit = ""},
-        .cpu = {intersect<float>, intersect<double>},
+        .cpu = {.single = intersect<float>, .precise = intersect<double>, .counted = counted},
+        .spawn = {.radii = 0.01, .ulps = 16},
         .tolerance = tolerance,
     };
 }

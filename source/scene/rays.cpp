@@ -28,9 +28,9 @@ size_t disable_invalid(std::vector<Ray>& rays) {
     return count;
 }
 
-float extent_of(const Rays& rays) {
+float extent_of(std::span<const Ray> rays) {
     float extent = 0;
-    for (const Ray& ray : rays.rays) {
+    for (const Ray& ray : rays) {
         const glm::vec3 size = glm::abs(ray.origin);
         // Comparisons with NaN are false; what is infinite belongs to an invalid ray.
         for (int axis = 0; axis < 3; ++axis)

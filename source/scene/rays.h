@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ bool is_valid(const Ray& ray);
 size_t disable_invalid(std::vector<Ray>& rays);
 
 /// Largest finite coordinate of any origin: what boxes are padded for.
-float extent_of(const Rays& rays);
+float extent_of(std::span<const Ray> rays);
+inline float extent_of(const Rays& rays) { return extent_of(rays.rays); }
 
 /// Content hash.
 uint64_t hash(const Rays& rays);

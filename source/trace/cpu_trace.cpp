@@ -56,6 +56,17 @@ Hit CpuTracer::trace(const Ray& ray, TraceMode mode, glm::vec3* normal) const {
                : result(first<double>(cpu.precise, cpu.finish_precise, ray, mode));
 }
 
+uint32_t CpuTracer::iterations(const Ray& ray) const {
+    uint32_t count = 0;
+    if (primitive_.cpu.counted == nullptr || !is_valid(ray)) return count;
+    const auto counted = [&](const Geometry& geometry, size_t leaf, const Ray& r, float tmax,
+                             LeafHit<float>& hit) {
+        return primitive_.cpu.counted(geometry, leaf, r, tmax, hit, count);
+    };
+    first<float>(counted, primitive_.cpu.finish_single, ray, TraceMode::closest);
+    return count;
+}
+
 ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
     ReferenceHit result;
     if (!is_valid(ray)) return result;
@@ -74,26 +85,20 @@ ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
     return result;
 }
 
-namespace {
-
-/// Largest coordinate of any origin, for the padding of the boxes.
-float extent_of(std::span<const Ray> rays) {
-    float extent = 0;
-    for (const Ray& ray : rays)
-        if (is_valid(ray))
-            extent =
-                std::max({extent, std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
-    return extent;
-}
-
-}  // namespace
-
 std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Primitive& primitive,
                                             std::span<const Ray> rays) {
     const CpuTracer tracer(geometry, primitive, Precision::precise, extent_of(rays));
     std::vector<ReferenceHit> hits(rays.size());
     parallel_for(rays.size(), [&](size_t i) { hits[i] = tracer.trace_unrounded(rays[i]); });
     return hits;
+}
+
+std::vector<uint32_t> cpu_iterations(const Geometry& geometry, const Primitive& primitive,
+                                     std::span<const Ray> rays) {
+    const CpuTracer tracer(geometry, primitive, Precision::single, extent_of(rays));
+    std::vector<uint32_t> counts(rays.size());
+    parallel_for(rays.size(), [&](size_t i) { counts[i] = tracer.iterations(rays[i]); });
+    return counts;
 }
 
 Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,

@@ -31,6 +31,10 @@ class CpuTracer {
     /// leaf. Invalid rays miss.
     Hit trace(const Ray& ray, TraceMode mode = TraceMode::closest, glm::vec3* normal = nullptr) const;
 
+    /// Iterations of the float kernel's search over all leaves that finding the closest hit comes upon; 0 for
+    /// closed forms.
+    uint32_t iterations(const Ray& ray) const;
+
     /// The same, not rounded to float: t, u, normal and curve of the closest hit.
     ReferenceHit trace_unrounded(const Ray& ray) const;
 
@@ -54,6 +58,10 @@ class CpuTracer {
 /// filled in.
 std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Primitive& primitive,
                                             std::span<const Ray> rays);
+
+/// Iterations of the float kernel per ray, in parallel; all 0 for closed forms.
+std::vector<uint32_t> cpu_iterations(const Geometry& geometry, const Primitive& primitive,
+                                     std::span<const Ray> rays);
 
 /// All rays, in parallel; normals only when wanted.
 Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,

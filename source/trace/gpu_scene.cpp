@@ -7,6 +7,8 @@
 #include "gpu/embedded_shaders.h"
 #include "scene/leaf_order.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cstring>
@@ -85,7 +87,7 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
                                   [](const SceneModel& m) { return m.geometry.uniform_pieces == 0; });
     for (uint32_t i = 0; i < models.size(); ++i) add_model(models[i], i, options);
     add_instances(instances, models);
-    if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants);
+    if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options.pipelines);
 }
 
 void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOptions& options) {
@@ -108,16 +110,29 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     std::vector<Box> boxes(geometry.boxes.size());
     parallel_for(boxes.size(), [&](size_t i) { boxes[i] = padded(geometry.boxes[i], options.ray_extent); });
     const size_t most = leaves_per_structure(device_.info(), options.max_leaves);
+    const size_t first_part = parts_.size();
+    std::vector<BottomLevelInput> inputs;
     for (size_t first = 0, count = 0; first < geometry.leaf_count(); first += count) {
         count = std::min(most, geometry.leaf_count() - first);
         if (curves_of_a_ray_ != 0) count = whole_rays(geometry.leaves, first, count, curves_of_a_ray_);
-        BottomLevelInput input = input_of(geometry, boxes, first, count);
+        BottomLevelInput& input = inputs.emplace_back(input_of(geometry, boxes, first, count));
         input.compact = options.compact;
         input.opaque = curves_of_a_ray_ == 0;
-        parts_.push_back(
-            {build_bottom_level(device_, input, cost_.builds), index, static_cast<uint32_t>(first)});
+        parts_.push_back({{}, index, static_cast<uint32_t>(first)});
         ++cost_.structure_count;
     }
+    build_parts(inputs, first_part);
+}
+
+void GpuScene::build_parts(std::span<const BottomLevelInput> inputs, size_t first_part) {
+    if (curves_of_a_ray_ == 0) {
+        for (size_t i = 0; i < inputs.size(); ++i)
+            parts_[first_part + i].structure = build_bottom_level(device_, inputs[i], cost_.builds);
+        return;
+    }
+    // Many small ones: on a GPU an allocation costs more than a build.
+    std::vector<AccelerationStructure> built = build_bottom_levels(device_, inputs, cost_.builds);
+    for (size_t i = 0; i < built.size(); ++i) parts_[first_part + i].structure = std::move(built[i]);
 }
 
 void GpuScene::add_instances(std::span<const SceneInstance> instances,
@@ -151,29 +166,37 @@ void GpuScene::add_tops(std::span<const InstanceInput> inputs, const std::vector
         return;
     }
     assert(models.size() == 1 && inputs.size() == parts_.size());
+    std::vector<AccelerationStructure> built = build_top_levels(device_, inputs, cost_.builds);
     for (size_t i = 0; i < inputs.size(); ++i) {
         const Leaf& leaf = models[0].geometry.leaves[parts_[i].first_leaf];
         // Rays without leaves are traced with the structure before theirs, or the first, and miss.
         const uint32_t first = i == 0 ? 0 : leaf.curve / curves_of_a_ray_;
         if (i > 0) tops_.back().end_ray = first;
-        tops_.push_back({build_top_level(device_, inputs.subspan(i, 1), cost_.builds), first});
+        tops_.push_back({std::move(built[i]), first});
     }
 }
 
-void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants) {
+void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
+                             PipelineStore* store) {
     const Stopwatch stopwatch;
-    const PrimitiveShaders& shaders = primitive.shaders;
-    const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
-    const std::string any_hit = filters_triangles ? "own_curve.rahit" : shaders.any_hit;
-    const PipelineStages stages{embedded_shader("trace.rgen"), embedded_shader("trace.rmiss"),
-                                embedded_shader(shaders.closest_hit), embedded_shader(shaders.intersection),
-                                embedded_shader(any_hit)};
-    assert(!stages.closest_hit.empty() && (shaders.intersection.empty() || !stages.intersection.empty()));
     PipelineConstants all = constants;
     all.emplace_back(has_leaf_table_id, has_leaf_table_ ? 1u : 0u);
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
     all.emplace_back(curves_of_a_ray_id, curves_of_a_ray_);
-    pipeline_.emplace(device_, stages, all, static_cast<uint32_t>(sizeof(layout::TraceParameters)));
+    const auto make = [&] {
+        const PrimitiveShaders& shaders = primitive.shaders;
+        const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
+        const std::string any_hit = filters_triangles ? "own_curve.rahit" : shaders.any_hit;
+        const PipelineStages stages{embedded_shader("trace.rgen"), embedded_shader("trace.rmiss"),
+                                    embedded_shader(shaders.closest_hit),
+                                    embedded_shader(shaders.intersection), embedded_shader(any_hit)};
+        assert(!stages.closest_hit.empty() && (shaders.intersection.empty() || !stages.intersection.empty()));
+        return std::make_shared<const RayTracingPipeline>(
+            device_, stages, all, static_cast<uint32_t>(sizeof(layout::TraceParameters)));
+    };
+    std::string name = primitive.name;
+    for (const auto& [id, bits] : all) name += fmt::format(" {}:{}", id, bits);
+    pipeline_ = store != nullptr ? store->get(name, make) : make();
     cost_.pipeline_ms = stopwatch.milliseconds();
 }
 

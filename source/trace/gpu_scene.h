@@ -12,8 +12,10 @@
 
 #include <glm/glm.hpp>
 
-#include <optional>
+#include <map>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace strandlab {
@@ -22,6 +24,23 @@ namespace strandlab {
 struct SceneModel {
     Geometry geometry;
     uint32_t first_curve = 0;
+};
+
+/// Pipelines of one device, kept for later scenes with the same shaders and constants.
+class PipelineStore {
+  public:
+    using Pipeline = std::shared_ptr<const RayTracingPipeline>;
+
+    /// The pipeline of that name, made if there is none yet.
+    template <class Make>
+    Pipeline get(const std::string& name, Make&& make) {
+        Pipeline& pipeline = pipelines_[name];
+        if (!pipeline) pipeline = make();
+        return pipeline;
+    }
+
+  private:
+    std::map<std::string, Pipeline> pipelines_;
 };
 
 /// How a scene is put on the device.
@@ -39,6 +58,8 @@ struct SceneOptions {
     uint32_t curves_of_a_ray = 0;
     /// Largest leaf count of one structure; 0: what the device allows. Tests make it small.
     uint64_t max_leaves = 0;
+    /// Where the pipeline is kept for the next scene; none: each scene has its own.
+    PipelineStore* pipelines = nullptr;
 };
 
 /// What a scene costs besides its builds.
@@ -94,7 +115,9 @@ class GpuScene {
     void add_model(const SceneModel& model, uint32_t index, const SceneOptions& options);
     void add_instances(std::span<const SceneInstance> instances, const std::vector<SceneModel>& models);
     void add_tops(std::span<const InstanceInput> inputs, const std::vector<SceneModel>& models);
-    void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants);
+    void build_parts(std::span<const BottomLevelInput> inputs, size_t first_part);
+    void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
+                       PipelineStore* store);
     std::vector<RayTracingPipeline::Launch> launches(const Rays& rays,
                                                      layout::TraceParameters parameters) const;
     void add_launches(const Rays& rays, layout::TraceParameters parameters, const Top& top,
@@ -108,7 +131,7 @@ class GpuScene {
     std::vector<ModelBuffers> model_buffers_;
     Buffer rows_;
     std::vector<Top> tops_;
-    std::optional<RayTracingPipeline> pipeline_;  // none for an empty scene
+    PipelineStore::Pipeline pipeline_;  // none for an empty scene
     SceneCost cost_;
 };
 

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/text.h"
+#include "scene/spawn.h"
 #include "strands/bezier.h"
 #include "trace/sampling.h"
 
@@ -36,8 +37,7 @@ Ray ray_from(const glm::dvec3& origin, const glm::dvec3& direction) {
 glm::dvec3 moved_off(const glm::dvec3& point, const glm::dvec3& normal, double radius) {
     const glm::dvec3 size = glm::abs(point);
     const auto largest = static_cast<float>(std::max({size.x, size.y, size.z}));
-    const double ulp = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
-    return point + normal * std::max(0.01 * radius, 4 * ulp);
+    return point + normal * common_spawn_offset.distance(radius, largest);
 }
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

@@ -1,7 +1,7 @@
 // Stress pairs on the device: every ray meets its own strand, and what the device says is what the C++ float
 // version says.
 #include "gpu_fixture.h"
-#include "measure/stress.h"
+#include "measure/stress_limits.h"
 
 namespace strandlab {
 namespace {
@@ -19,15 +19,55 @@ TEST_P(StressOnDevice, AgreesWithTheFloatVersion) {
         StressTally tally;
         const auto plain =
             intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, tally.boxes);
-        const auto device_hits = trace_pairs(device(), *choice.primitive, geometry, pairs);
-        ASSERT_EQ(device_hits.size(), plain.size());
-        tally.boxes = {};
-        add_difference(pairs, device_hits, plain, tally);
-        EXPECT_EQ(tally.compared, range.count);
+        const PairScene scene(device(), *choice.primitive, geometry, range, extent_of(pairs.rays));
+        const std::vector<StressHit> hits = scene.trace(pairs.rays);
+        ASSERT_EQ(hits.size(), plain.size());
+        Agreement agreement;
+        add_difference(strands, pairs.rays, hits, plain, agreement);
+        EXPECT_EQ(agreement.pairs, range.count);
         // The driver's own triangle test rounds otherwise than ours, the more the farther the ray begins.
         const bool triangles = geometry.is_triangles();
-        EXPECT_LE(tally.differing, triangles ? range.count / 10 : 0u) << name;
-        EXPECT_LE(tally.boxes.lost, triangles ? range.count / 50 : 0u) << name;
+        EXPECT_LE(agreement.beyond(), triangles ? range.count / 10 : 0u) << name;
+        EXPECT_LE(agreement.only_cpu, triangles ? range.count / 50 : 0u) << name;
+    }
+}
+
+TEST_P(StressOnDevice, AgreesInEveryFamily) {
+    const PrimitiveChoice choice = parse_primitive(GetParam());
+    PipelineStore pipelines;
+    for (const StressFamily& family : stress_families()) {
+        const StressRange range{&family, default_stress_seed, 0, 200};
+        const Curves strands = stress_strands(range);
+        const StressPairs pairs = aimed_pairs(range, choice.primitive->surface(strands, choice.options));
+        const Geometry geometry = choice.primitive->build(strands, choice.options);
+        BoxCheck boxes;
+        const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
+        const PairScene scene(device(), *choice.primitive, geometry, range, extent_of(pairs.rays),
+                              &pipelines);
+        Agreement agreement;
+        add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
+        const StressJudgement judgement = judge_agreement(agreement, choice, family);
+        EXPECT_NE(judgement.verdict, StressVerdict::fails) << family.name << ": " << judgement.text;
+    }
+}
+
+TEST_P(StressOnDevice, RaysLeaveHitsAndShadowRaysAgree) {
+    const PrimitiveChoice choice = parse_primitive(GetParam());
+    PipelineStore pipelines;
+    for (const char* name : {"gentle", "joints", "kinks", "fat curl", "r/L=1e-3", "structured"}) {
+        const StressRange range{&stress_family(name), default_stress_seed, 0, 300};
+        const Curves strands = stress_strands(range);
+        const Surface surface = choice.primitive->surface(strands, choice.options);
+        const StressPairs pairs = aimed_pairs(range, surface);
+        const Geometry geometry = choice.primitive->build(strands, choice.options);
+        const auto points = spawn_points(*choice.primitive, geometry, surface, pairs);
+        const PairScene scene(device(), *choice.primitive, geometry, range, 0, &pipelines);
+        SpawnTally tally;
+        add_spawned(scene, *choice.primitive, surface, range, points, tally);
+        EXPECT_GE(tally.rays, 100u) << name;
+        EXPECT_EQ(tally.shadow_rays, tally.rays) << name;
+        EXPECT_EQ(tally.shadow_differs, 0u) << name;
+        EXPECT_EQ(tally.self_hits, 0u) << name;
     }
 }
 

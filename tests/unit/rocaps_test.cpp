@@ -125,15 +125,8 @@ IntersectorErrors errors_over(const std::string& label, const std::string& caps,
         found[i] = nearest(choice, make_strand(all[i].pair.strand[0]), all[i].pair.ray, hits[i]);
     });
     IntersectorErrors errors;
-    for (size_t i = 0; i < all.size(); ++i) {
-        const size_t faults = errors.false_misses + errors.false_hits + errors.wrong_hits;
+    for (size_t i = 0; i < all.size(); ++i)
         count(all[i], found[i], double(hits[i].t), glm::dvec3(hits[i].normal), errors);
-        if (std::getenv("ROCAPS_FAULTS") &&
-            errors.false_misses + errors.false_hits + errors.wrong_hits != faults)
-            fmt::print("fault {} found {} t {} u {} reference t {} u {} r {} inside {}\n", i, int(found[i]),
-                       hits[i].t, hits[i].u, all[i].hit.t, all[i].hit.u, all[i].hit.radius,
-                       all[i].hit.starts_inside);
-    }
     return errors;
 }
 
@@ -196,6 +189,7 @@ const Figures verified_figures[] = {
     {"far 1e6", 0, 0, 0, 2.1, 30},
     {"offset 1e4", 0, 0, 0, 1.8e-5, 2.6e-4},
     {"inside", 0, 2.5e-5, 0, 1e-4, 1e-4},
+    {"inside out", 0, 2.5e-5, 0, 3.5e-5, 2.5e-3},
     {"degenerate", 0, 0, 0, 1.8e-5, 3e-4},
     {"fat curl", 0, 0, 0, 4e-7, 5e-6},
     // Five rays run exactly along the axis of a cone into its tip of radius 0, where there is no answer.
