@@ -101,10 +101,10 @@ TEST(PrimaryRays, PictureMustHoldSomethingAndFit) {
         EXPECT_THROW(primary_rays(camera, size), Error);
 }
 
-TEST(SecondaryRays, OnePerHitOutsideTheSurface) {
+TEST(DiffuseRays, OnePerHitOutsideTheSurface) {
     for (const double radius : {1.0, 1e-3, 2e-5}) {
         const SphereScene scene(radius, {96, 64, 1}, {0, 0, 50 * radius});
-        const Rays rays = secondary_rays(scene.primary(), 3);
+        const Rays rays = diffuse_rays(scene.primary(), 3);
         ASSERT_GT(rays.rays.size(), 100u);
         EXPECT_EQ(rays.rays.size(), scene.hit_count());
         EXPECT_GE(size_t(rays.width) * rays.height, rays.rays.size());
@@ -120,9 +120,9 @@ TEST(SecondaryRays, OnePerHitOutsideTheSurface) {
     }
 }
 
-TEST(SecondaryRays, CosineDistributedAboutTheNormal) {
+TEST(DiffuseRays, CosineDistributedAboutTheNormal) {
     const SphereScene scene(1.0, {400, 400, 1});
-    const Rays rays = secondary_rays(scene.primary());
+    const Rays rays = diffuse_rays(scene.primary());
     double cosine = 0, square = 0;
     glm::dvec3 across(0);
     size_t i = 0;
@@ -141,9 +141,9 @@ TEST(SecondaryRays, CosineDistributedAboutTheNormal) {
     EXPECT_LT(glm::length(across / n), 5 / std::sqrt(n));
 }
 
-TEST(SecondaryRays, HitsWithoutAUsablePlaceHaveNone) {
+TEST(DiffuseRays, HitsWithoutAUsablePlaceHaveNone) {
     SphereScene scene(1.0, {8, 8, 1});
-    const size_t before = secondary_rays(scene.primary()).rays.size();
+    const size_t before = diffuse_rays(scene.primary()).rays.size();
     size_t changed = 0;
     for (ReferenceHit& hit : scene.hits) {
         if (!hit.is_hit() || changed == 4) continue;
@@ -154,7 +154,7 @@ TEST(SecondaryRays, HitsWithoutAUsablePlaceHaveNone) {
         ++changed;
     }
     ASSERT_EQ(changed, 4u);
-    EXPECT_EQ(secondary_rays(scene.primary()).rays.size(), before - 4);
+    EXPECT_EQ(diffuse_rays(scene.primary()).rays.size(), before - 4);
 }
 
 TEST(ShadowRays, GoToTheLightFromWhatFacesIt) {
