@@ -34,7 +34,7 @@ struct ArticleStyle {
 // 11,836,704 and 1,656,005 curves.
 constexpr ArticleStyle article_styles[] = {
     {123'299, 96, "style=curly,length=0.25"},
-    {127'385, 13, "style=straight,length=0.3,lock_size=1,gathering=0.9"},
+    {25'477, 65, "style=straight,length=0.3,lock_size=1,gathering=0.9"},
 };
 
 const std::vector<Preset>& presets() {
@@ -69,7 +69,7 @@ const std::vector<Preset>& presets() {
         {"article",
          "the published table of curly hair and a ponytail, at its sizes",
          {},
-         {"lss:segments=1", "dots:segments=1", "prhi:variant=published", "prhi", "rocaps", "lss", "dots"},
+         {"lss:segments=1", "dots:segments=1", "prhi:variant=published", "prhi", "rocaps", "lss"},
          {"primary"},
          20'000,
          {5, "640x360"},

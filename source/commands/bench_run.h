@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/bench_options.h"
-#include "commands/scene_group.h"
+#include "measure/scene_group.h"
 #include "measure/bench_case.h"
 #include "measure/interleave.h"
 #include "report/result_writer.h"

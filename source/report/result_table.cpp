@@ -58,27 +58,29 @@ std::vector<std::string> cells(const Json& row, const FrontMarks& marks) {
     std::string caps = text_at(row, "primitive.caps");
     if (is_true_at(row, "primitive.caps_fell_back")) caps += "*";
     const std::string model = "model_error.all.", own = "intersector_error.decisive.";
-    return {text_at(row, "primitive.label"),
-            caps,
-            front_text(marks),
-            number(row, "time.trace_ms.median", 4),
-            number(row, "time.spread", 2, 100),
-            number(row, "time.ratio.median", 3),
-            number(row, "time.mrays_per_second"),
-            number(row, "time.build_ms"),
-            number(row, "memory.bytes_per_curve"),
-            bytes_per_curve(row, "memory.input_bytes"),
-            bytes_per_curve(row, "memory.built_bytes"),
-            bytes_per_curve(row, "memory.kept_bytes"),
-            bytes_per_curve(row, "memory.record_bytes"),
-            share(row, model + "false_hit"),
-            share(row, model + "false_miss"),
-            share(row, model + "wrong_strand"),
-            number(row, model + "distance.p50", 2),
-            number(row, model + "distance.p99", 2),
-            number(row, model + "normal.p99", 2),
-            own_errors(row),
-            number(row, own + "distance.p99", 2)};
+    return {
+        text_at(row, "primitive.label"),
+        caps,
+        front_text(marks),
+        number(row, "time.trace_ms.median", 4),
+        number(row, "time.spread", 2, 100),
+        number(row, "time.ratio.median", 3),
+        number(row, "time.mrays_per_second"),
+        number(row, "time.build_ms"),
+        number(row, "memory.bytes_per_curve"),
+        bytes_per_curve(row, "memory.input_bytes"),
+        bytes_per_curve(row, "memory.built_bytes"),
+        bytes_per_curve(row, "memory.kept_bytes"),
+        bytes_per_curve(row, "memory.record_bytes"),
+        share(row, model + "false_hit"),
+        share(row, model + "false_miss"),
+        share(row, model + "wrong_strand"),
+        field_at(row, "model_error") != nullptr ? grouped(count(row, "model_error.inside_own.rays")) : "-",
+        number(row, model + "distance.p50", 2),
+        number(row, model + "distance.p99", 2),
+        number(row, model + "normal.p99", 2),
+        own_errors(row),
+        number(row, own + "distance.p99", 2)};
 }
 
 Table empty_table() {
@@ -140,17 +142,14 @@ std::string result_table(std::span<const Json> rows) {
 }
 
 std::string result_legend() {
-    return "front: T, no other row here is faster and less wrong; M, none is smaller and less wrong (dt p99; "
-           "over "
-           "1 %\n"
-           "wrong rays count as infinitely wrong). ratio: to the baseline primitive, round by round.\n"
-           "memory: what stays while tracing = kept (acceleration structure after compaction) + records.\n"
-           "false hit, false miss, strand (another one), dt, normal: against the exact swept sphere of the "
-           "curves\n"
-           "(model error: shape, rounding and intersector together). own: decisive rays that are wrong about "
-           "the\n"
-           "primitive's own surface, and dt there (intersector error). caps*: the primitive cannot do the "
-           "scene's.\n";
+    return R"(front: T, no other row here is faster and less wrong; M, none is smaller and less wrong (dt p99; over 1 %
+of wrong rays count as infinitely wrong). ratio: to the baseline primitive, round by round.
+memory: what stays while tracing = kept (acceleration structure after compaction) + records.
+false hit, false miss, strand (another one), dt, normal: against the exact swept sphere of the curves
+(model error: shape, rounding and intersector together). own: decisive rays that are wrong about the
+primitive's own surface, and dt there (intersector error). in own: rays that start inside that surface,
+judged apart. caps*: the primitive cannot do the scene's.
+)";
 }
 
 }  // namespace strandlab

@@ -309,6 +309,25 @@ TEST_F(SweepTest, PartsMakeTheWhole) {
     expect_failure(run(sweep({"--shard", "5/4"})), 2, {"--shard 5/4", "I/N"});
 }
 
+TEST_F(SweepTest, PartsRunAsASlurmJobArray) {
+    // Slurm itself only starts the script, with these variables; here tasks 5 and 6 of a cluster's own count.
+    for (const char* task : {"5", "6"}) {
+        std::string shell = "cd '" + path("") +
+                            "' && XDG_CACHE_HOME=cache STRANDLAB='" STRANDLAB_PROGRAM
+                            "' SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_ID=" +
+                            task + " '" STRANDLAB_MODELS "/../tools/sweep_array' results";
+        Arguments arguments = sweep({"--quiet"});
+        for (size_t i = 1; i < arguments.size(); ++i) shell += " '" + arguments[i] + "'";
+        ASSERT_EQ(std::system((shell + " > out.txt").c_str()), 0) << shell;
+    }
+    std::set<std::string> all = keys("results/part1.jsonl");
+    EXPECT_EQ(all.size(), cases / 2);
+    all.merge(keys("results/part2.jsonl"));
+    EXPECT_EQ(all.size(), cases);
+    const int status = std::system("bash '" STRANDLAB_MODELS "/../tools/sweep_array' x 2> /dev/null");
+    EXPECT_NE(status, 0);
+}
+
 TEST_F(SweepTest, ComparesWithABaseline) {
     expect_success(run(sweep({"--json", "old.jsonl"})));
     // Nothing is measured: the same rows, with the times of some changed by hand.

@@ -157,6 +157,23 @@ TEST(DiffuseRays, HitsWithoutAUsablePlaceHaveNone) {
     EXPECT_EQ(diffuse_rays(scene.primary()).rays.size(), before - 4);
 }
 
+TEST(AmbientRays, AreShortAndStartWhereDiffuseOnesDo) {
+    const SphereScene scene(1.0);
+    const Rays ambient = ambient_rays(scene.primary(), 3), diffuse = diffuse_rays(scene.primary(), 3);
+    ASSERT_EQ(ambient.rays.size(), diffuse.rays.size());
+    // The box around the half of the sphere that is seen: at most 2 x 2 x 1, and not much less.
+    const float reach = ambient.rays.front().tmax;
+    EXPECT_GT(reach, 0.2f);
+    EXPECT_LT(reach, 0.31f);
+    for (size_t i = 0; i < ambient.rays.size(); ++i) {
+        EXPECT_EQ(ambient.rays[i].origin, diffuse.rays[i].origin);
+        EXPECT_EQ(ambient.rays[i].tmax, reach);
+        EXPECT_TRUE(is_valid(ambient.rays[i]));
+    }
+    EXPECT_NE(ambient.rays.front().direction, diffuse.rays.front().direction);
+    EXPECT_TRUE(ambient_rays({}).rays.empty());
+}
+
 TEST(ShadowRays, GoToTheLightFromWhatFacesIt) {
     const SphereScene scene(1.0);
     const glm::dvec3 light = world_direction(camera, {-0.5, 0.8, 0.6});
@@ -201,12 +218,37 @@ TEST(InteriorRays, StartBesideAStrand) {
     EXPECT_THROW(interior_rays(Curves{}, 10), Error);
 }
 
+TEST(GrazingRays, PassAStrandAboutItsRadiusAway) {
+    const Curves curves = bent_strands();
+    const Rays rays = grazing_rays(curves, 500);
+    ASSERT_EQ(rays.rays.size(), 500u);
+    size_t inner = 0, near = 0;
+    for (const Ray& ray : rays.rays) {
+        EXPECT_TRUE(is_valid(ray));
+        // 20 radii on, the ray is where it grazes.
+        const glm::dvec3 at = glm::dvec3(ray.origin) + 0.2 * glm::dvec3(ray.direction);
+        double nearest = 1e300;
+        for (const Curve& curve : curves.curves)
+            for (int k = 0; k <= 400; ++k)
+                nearest =
+                    std::min(nearest, glm::distance(glm::dvec3(point_at(to_double(curve), k / 400.0)), at));
+        EXPECT_LT(nearest, 0.0105 + 2e-4);
+        near += nearest > 0.0095 - 1e-6;
+        inner += nearest < 0.01;
+    }
+    EXPECT_GT(near, 480u);  // but where another strand is nearer
+    EXPECT_GT(inner, 100u);
+    EXPECT_LT(inner, 400u);
+    EXPECT_THROW(grazing_rays(Curves{}, 10), Error);
+}
+
 TEST(InteriorRays, CurvesThatAreAPointStillGiveRays) {
     Curves curves;
     curves.curves.push_back(
         {glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0)});
     curves.strands = {{0, 0}, {0, 1}};
     for (const Ray& ray : interior_rays(curves, 50).rays) EXPECT_TRUE(is_valid(ray));
+    for (const Ray& ray : grazing_rays(curves, 50).rays) EXPECT_TRUE(is_valid(ray));
 }
 
 TEST(RaySets, TheSameForAnyNumberOfThreads) {
@@ -225,6 +267,7 @@ TEST(RaySets, TheSameForAnyNumberOfThreads) {
         EXPECT_EQ(make_rays(set, input).name, set.name);
         input.shuffled = true;
         EXPECT_NE(hash(make_rays(set, input)), many) << set.name;
+        EXPECT_EQ(make_rays(set, input).name, std::string(set.name) + " shuffled");
         RaySetInput other = input;
         other.seed = 10;
         EXPECT_NE(hash(make_rays(set, other)), hash(make_rays(set, input))) << set.name;

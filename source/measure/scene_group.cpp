@@ -1,7 +1,6 @@
-#include "commands/scene_group.h"
+#include "measure/scene_group.h"
 
 #include "base/log.h"
-#include "report/text_format.h"
 
 #include <algorithm>
 #include <fstream>
@@ -76,8 +75,8 @@ std::vector<const PreparedCase*> SceneGroups::next() {
         if (!prepared && !group_.empty()) break;  // once more, without the others
         waiting_.pop_front();
         if (!prepared) {
-            warn("{}: {} (up to {} while it is built) does not fit the device and is left out",
-                 input_.scene.name, choices_[index].label(), bytes_text(wanted));
+            warn("{}: {} (up to {} MB while it is built) does not fit the device and is left out",
+                 input_.scene.name, choices_[index].label(), wanted / 1'000'000);
             continue;
         }
         resident += prepared->resident_bytes();
