@@ -283,8 +283,9 @@ TEST_F(SweepTest, AFullDiskIsSaidAndHurtsNothing) {
 TEST_F(SweepTest, PartsMakeTheWhole) {
     expect_success(run(sweep({"--json", "whole.jsonl"})));
     // As GNU parallel, xargs or a job array would start them: all at once, each in its own file.
-    std::string shell =
-        "cd '" + path("") + "' && seq 4 | XDG_CACHE_HOME=cache xargs -P 4 -I{} '" STRANDLAB_PROGRAM "'";
+    const bool has_parallel = std::system("parallel --version 2> /dev/null | grep -q '^GNU parallel'") == 0;
+    std::string shell = "cd '" + path("") + "' && seq 4 | XDG_CACHE_HOME=cache HOME=cache " +
+                        (has_parallel ? "parallel -q -j 4" : "xargs -P 4 -I{}") + " '" STRANDLAB_PROGRAM "'";
     for (const std::string& word : sweep({"--json", "part{}.jsonl", "--shard", "{}/4", "--quiet"}))
         shell += " '" + word + "'";
     ASSERT_EQ(std::system((shell + " > out.txt").c_str()), 0);
