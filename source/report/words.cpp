@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -63,6 +64,9 @@ std::string sentence(std::span<const Json* const> rows, double limit) {
                                    text_at(first, "device.class"));
     const std::string wanted =
         hit_or_miss ? "at most 1 % wrong" : fmt::format("p99 <= {} r", significant(limit, 2));
+    const bool has_errors = std::any_of(rows.begin(), rows.end(),
+                                        [](const Json* row) { return !std::isnan(row_error(*row).ranking); });
+    if (!has_errors) return text + "no errors to choose by (not measured, or no ray hits).";
     const Json* fast = cheapest(rows, row_time, limit);
     const Json* small = cheapest(rows, row_memory, limit);
     if (fast != nullptr)

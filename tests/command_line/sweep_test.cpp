@@ -329,6 +329,23 @@ TEST_F(SweepTest, PartsRunAsASlurmJobArray) {
     EXPECT_NE(status, 0);
 }
 
+TEST_F(SweepTest, RebuildsThePublishedTableAtTheSizeThatTheDeviceTakes) {
+    const Outcome outcome =
+        run({"bench", "--preset", "article", "--device", "cpu-float", "--error-rays", "0", "--repeat", "1",
+             "--resolution", "8x8", "--primitive", "lss:segments=1", "--no-embree", "--json", "r.jsonl"});
+    expect_success(outcome);
+    for (const char* text : {"11,836,704 curves are too many for cpu-float; scaled down to 197,184",
+                             "1,656,005 curves are too many for cpu-float; scaled down to 183,950"})
+        EXPECT_TRUE(contains(outcome.log, text)) << outcome.log;
+    const std::vector<Json> all = rows("r.jsonl");
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all.at(0).at("model").at("curves"), 197'184);
+    EXPECT_EQ(all.at(1).at("model").at("curves"), 183'950);
+    // One line of the table for each, with the memory of the buffers: 40 bytes a curve here.
+    EXPECT_TRUE(contains(outcome.output, "197,184  lss:segments=1")) << outcome.output;
+    EXPECT_EQ(all.at(0).at("memory").at("buffer_bytes"), 197'184 * 40);
+}
+
 TEST_F(SweepTest, ComparesWithABaseline) {
     expect_success(run(sweep({"--json", "old.jsonl"})));
     // Nothing is measured: the same rows, with the times of some changed by hand.

@@ -56,6 +56,13 @@ TEST(Words, NameTheFastestAndTheSmallestWithinTheLimit) {
         << result_words(rows, 0.002)[0];
 }
 
+TEST(Words, ChooseNothingWithoutErrors) {
+    std::vector<Json> rows{row_of("prhi", 4, 300, 0.01)};
+    rows[0]["model_error"] = nullptr;
+    EXPECT_NE(result_words(rows).at(0).find("no errors to choose by"), std::string::npos);
+    EXPECT_TRUE(result_words({}).empty());
+}
+
 TEST(Words, DeviceClassesAreNotMixed) {
     std::vector<Json> rows{row_of("prhi", 4, 300, 0.01), row_of("rocaps", 5, 250, 0.001)};
     rows[1]["device"]["class"] = "hardware";
