@@ -129,6 +129,37 @@ void check_appendable(const std::string& path) {
     if (::access(exists ? path.c_str() : folder_of(path).c_str(), W_OK) != 0) fail_at(path, "append", errno);
 }
 
+bool drop_torn_line(const std::string& path, const std::function<bool(std::string_view line)>& is_whole) {
+    const Descriptor file{::open(path.c_str(), O_RDWR | O_CLOEXEC)};
+    if (file.value < 0) {
+        if (errno == ENOENT) return false;
+        fail_at(path, "open", errno);
+    }
+    while (::flock(file.value, LOCK_EX) != 0 && errno == EINTR) {
+    }
+    struct stat status;
+    if (::fstat(file.value, &status) != 0) fail_at(path, "read", errno);
+    if (!S_ISREG(status.st_mode) || status.st_size == 0) return false;
+    // Backwards, block by block, to the newline before the last line.
+    std::string line;
+    off_t begin = status.st_size;
+    while (begin > 0) {
+        char block[4096];
+        const auto bytes = static_cast<size_t>(std::min<off_t>(begin, sizeof block));
+        if (::pread(file.value, block, bytes, begin - static_cast<off_t>(bytes)) !=
+            static_cast<ssize_t>(bytes))
+            fail_at(path, "read", errno);
+        const size_t newline = std::string_view(block, bytes).rfind('\n');
+        const size_t kept = newline == std::string_view::npos ? 0 : newline + 1;
+        line.insert(0, block + kept, bytes - kept);
+        begin -= static_cast<off_t>(bytes - kept);
+        if (kept > 0) break;
+    }
+    if (line.empty() || is_whole(line)) return false;
+    if (::ftruncate(file.value, begin) != 0) fail_at(path, "repair", errno);
+    return true;
+}
+
 void append_line(const std::string& path, std::string_view line) {
     const Descriptor file{::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666)};
     if (file.value < 0) fail_at(path, "append", errno);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,10 @@ void write_file(const std::string& path, std::string_view bytes);
 /// Throws as append_line would where the file or its folder does not allow it: before hours of work whose
 /// rows it is for. Creates nothing.
 void check_appendable(const std::string& path);
+
+/// Cuts off the last line of a file when it lacks its newline and is not whole (which the caller judges): its
+/// writer was interrupted. Returns whether there was one. No file: nothing to do. Takes append_line's lock.
+bool drop_torn_line(const std::string& path, const std::function<bool(std::string_view line)>& is_whole);
 
 /// Appends one line (the newline is added) with a single write under a lock, so that rows of several
 /// processes never mix; a last line that lacks its newline is completed first. Creates the file when

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "primitives/choice_list.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ void ModelArguments::add_to(CLI::App& app, bool required) {
     CLI::Option* option = app.add_option(
         "MODEL", models, "model file (.hair, .tfx, .data, .npy), scene (.json) or generate:NAME,...");
     if (required) option->required();
+    app_ = &app;
     app.add_option("--basis", basis, "how points become curves: centripetal, uniform, linear, bspline")
         ->capture_default_str();
     radius_option_ =
@@ -47,18 +49,38 @@ CurveOptions ModelArguments::curve_options() const {
     return options;
 }
 
+std::vector<std::pair<std::string, std::string>> ModelArguments::given() const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const char* name : {"--basis", "--radius", "--radius-tip", "--unit-scale"})
+        if (const CLI::Option* option = app_->get_option(name); option->count() > 0)
+            all.emplace_back(name, option->results().front());
+    return all;
+}
+
 void PrimitiveArguments::add_to(CLI::App& app, bool several) {
-    CLI::Option* option = app.add_option("--primitive", primitives, "NAME[:key=value,...], see below");
+    CLI::Option* option = app.add_option(
+        "--primitive", primitives,
+        several ? "NAME[:key=value,...], see below; lists (key=1,2,4) and ranges (key=1..8) make several"
+                : "NAME[:key=value,...], see below");
     // Values hold commas and colons: every option takes one.
     option->allow_extra_args(false);
     if (!several) option->expected(1);
+    several_ = several;
     app.add_option("--caps", caps,
                    "strand ends: round, open or flat (default: round, or what the primitive can do)");
 }
 
 std::vector<PrimitiveChoice> PrimitiveArguments::choices() const {
     std::vector<PrimitiveChoice> all;
-    for (const std::string& text : primitives) all.push_back(parse_primitive(text, caps));
+    for (const std::string& text : primitives)
+        for (PrimitiveChoice& choice : parse_primitives(text, caps)) {
+            const bool is_new = std::none_of(all.begin(), all.end(), [&](const PrimitiveChoice& other) {
+                return other.label() == choice.label();
+            });
+            if (is_new) all.push_back(std::move(choice));
+        }
+    if (!several_ && all.size() > 1)
+        fail(ExitCode::usage, "--primitive {}: one primitive, not {}", primitives.front(), all.size());
     if (!primitives.empty()) return all;
     const Caps mode = scene_caps();
     for (const Primitive& primitive : strandlab::primitives()) {

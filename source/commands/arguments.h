@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace strandlab {
@@ -21,8 +22,11 @@ struct ModelArguments {
     void add_to(CLI::App& app, bool required);
     /// Throws Error (usage) for values out of range.
     CurveOptions curve_options() const;
+    /// The options that were given, with their values.
+    std::vector<std::pair<std::string, std::string>> given() const;
 
   private:
+    CLI::App* app_ = nullptr;
     CLI::Option* radius_option_ = nullptr;
     CLI::Option* radius_tip_option_ = nullptr;
 };
@@ -34,10 +38,13 @@ struct PrimitiveArguments {
 
     /// several: the option may be repeated.
     void add_to(CLI::App& app, bool several);
-    /// The choices; with none given, every primitive but the diagnostic ones, with its defaults.
+    /// The choices, each once; with none given, every primitive but the diagnostic ones, with its defaults.
     std::vector<PrimitiveChoice> choices() const;
     /// The mode of the common reference: the one asked for, else round.
     Caps scene_caps() const;
+
+  private:
+    bool several_ = true;
 };
 
 /// Which device.

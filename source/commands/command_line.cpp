@@ -7,6 +7,7 @@
 
 #include <tbb/global_control.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <vector>
@@ -70,6 +71,7 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         fail_usage(app, error);
     }
+    std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the size limit is an error like a full disk, not the end
     set_quiet(global.quiet);
     set_cache_enabled(!global.no_cache);
     std::unique_ptr<tbb::global_control> limit;

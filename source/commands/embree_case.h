@@ -4,7 +4,15 @@
 #include "measure/bench_case.h"
 #include "report/result_row.h"
 
+#include <string_view>
+
 namespace strandlab {
+
+/// What results call Embree's primitive.
+inline constexpr std::string_view embree_label = "embree round bezier";
+
+/// The row with Embree's round Bezier curves for the primitive, and this processor for the device.
+ResultRow with_embree_facts(ResultRow row);
 
 /// A row for Embree's round Bezier curves on the scene's only model: built and traced on this processor,
 /// judged by the oracle of the swept disc (its own definition) and by the common reference. `row` brings

@@ -7,14 +7,28 @@
 #include "commands/usage_error.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace strandlab {
 namespace {
 
-bool is_file(const std::string& name) { return name.size() > 4 && name.substr(name.size() - 4) == ".npy"; }
+/// One --rays argument, taken apart.
+struct RayName {
+    std::string name;  // of a set or file
+    bool is_file = false, shuffled = false;
+
+    RayName(const std::string& text, bool shuffle_all) : name(text), shuffled(shuffle_all) {
+        constexpr std::string_view suffix = ":shuffled";
+        if (name.ends_with(suffix)) {
+            name.resize(name.size() - suffix.size());
+            shuffled = true;
+        }
+        is_file = name.size() > 4 && name.ends_with(".npy");
+    }
+};
 
 std::string set_help() {
-    std::string text = "ray set, repeatable, or FILE.npy (float32 [M,8]):";
+    std::string text = "ray set, repeatable, or FILE.npy (float32 [M,8]); NAME:shuffled is in random order;";
     for (const RaySetInfo& set : ray_sets()) text += fmt::format(" {} ({});", set.name, set.help);
     text.pop_back();
     return text;
@@ -40,8 +54,17 @@ void RayArguments::add_to(CLI::App& app, const std::string& default_names) {
 
 void RayArguments::check() const {
     parse_camera(camera);
-    for (const std::string& name : names)
-        if (!is_file(name)) ray_set_named(name);
+    set_names();
+}
+
+std::vector<std::string> RayArguments::set_names() const {
+    std::vector<std::string> all;
+    for (const std::string& text : names) {
+        const RayName ray(text, shuffle);
+        all.push_back(ray.is_file ? ray.name : std::string(ray_set_named(ray.name).name));
+        if (ray.shuffled) all.back() += " shuffled";
+    }
+    return all;
 }
 
 Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolution& size) {
@@ -49,45 +72,87 @@ Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolu
     return framing(points, double(size.width) / size.height, parse_camera(arguments.camera));
 }
 
-RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments,
-                 const Resolution& size, Caps caps) {
-    const std::vector<Surface> common = common_surfaces(scene, caps);
-    const bool needs_camera = std::any_of(arguments.names.begin(), arguments.names.end(),
-                                          [](const std::string& name) { return !is_file(name); });
-    // The light stands over the camera's right shoulder.
-    const Camera camera = needs_camera ? camera_of(scene, arguments, size) : Camera{};
-    const PictureSize picture{size.width, size.height, 1};
-    Rays primary;
-    Reference primary_reference;
-    for (const std::string& name : arguments.names) {
-        MeasuredRays set;
-        if (is_file(name)) {
-            set.rays = load_ray_file(name);
-            // Rays of a picture of that size: its shape is the launch's.
-            if (set.rays.rays.size() == size_t(size.width) * size.height) {
-                set.rays.width = size.width;
-                set.rays.height = size.height;
-            }
-        } else {
-            const RaySetInfo& info = ray_set_named(name);
-            if (info.needs_primary_hits && primary.rays.empty()) {
-                primary = primary_rays(camera, picture, arguments.seed);
-                primary_reference = make_scene_reference(scene, common, curves, primary.rays);
-            }
-            set.rays = make_rays(info, {curves,
-                                        camera,
-                                        picture,
-                                        world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7))),
-                                        arguments.seed,
-                                        arguments.shuffle,
-                                        {primary.rays, primary_reference.hits}});
-            set.shadow = info.name == "shadow";
-        }
-        set.sample = error_sample(set.rays.rays.size(), arguments.error_rays);
+/// Makes sets one after another; what they share is made once, when the first needs it.
+class RaySets::Maker {
+  public:
+    Maker(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size,
+          Caps caps)
+        : scene_(scene),
+          curves_(curves),
+          arguments_(arguments),
+          size_{size.width, size.height, 1},
+          common_(common_surfaces(scene, caps)) {}
+
+    MeasuredRays make(const std::string& text) {
+        const RayName name(text, arguments_.shuffle);
+        MeasuredRays set = name.is_file ? from_file(name) : from_table(name);
+        set.shuffled = name.shuffled;
+        set.sample = error_sample(set.rays.rays.size(), arguments_.error_rays);
         set.sample_rays = selected(set.rays, set.sample);
-        set.common = make_scene_reference(scene, common, curves, set.sample_rays);
-        sets_.push_back(std::move(set));
+        set.common = make_scene_reference(scene_, common_, curves_, set.sample_rays);
+        return set;
     }
+
+  private:
+    MeasuredRays from_file(const RayName& name) const {
+        MeasuredRays set;
+        set.kind = "file";
+        set.rays = load_ray_file(name.name);
+        // Rays of a picture of that size: its shape is the launch's.
+        if (set.rays.rays.size() == size_.rays()) {
+            set.rays.width = size_.width;
+            set.rays.height = size_.height;
+        }
+        if (name.shuffled) {
+            shuffle(set.rays, arguments_.seed);
+            set.rays.name += " shuffled";
+        }
+        return set;
+    }
+
+    MeasuredRays from_table(const RayName& name) {
+        const RaySetInfo& info = ray_set_named(name.name);
+        if (!camera_) camera_ = camera_of(scene_, arguments_, {size_.width, size_.height});
+        if (info.needs_primary_hits && primary_.rays.empty()) {
+            primary_ = primary_rays(*camera_, size_, arguments_.seed);
+            primary_hits_ = make_scene_hits(scene_, common_, primary_.rays);
+        }
+        MeasuredRays set;
+        // The light stands over the camera's right shoulder.
+        set.rays = make_rays(info, {curves_,
+                                    *camera_,
+                                    size_,
+                                    world_direction(*camera_, glm::normalize(glm::dvec3(0.5, 0.8, 0.7))),
+                                    arguments_.seed,
+                                    name.shuffled,
+                                    {primary_.rays, primary_hits_}});
+        set.kind = info.name;
+        set.shadow = info.hit_or_miss_only;
+        set.is_picture = info.name == "primary" && !name.shuffled;
+        if (info.name == "primary" || info.needs_primary_hits) set.camera = to_string(*camera_);
+        return set;
+    }
+
+    const Scene& scene_;
+    const Curves& curves_;
+    const RayArguments& arguments_;
+    PictureSize size_;
+    std::vector<Surface> common_;
+    std::optional<Camera> camera_;
+    Rays primary_;
+    std::vector<ReferenceHit> primary_hits_;
+};
+
+RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments,
+                 const Resolution& size, Caps caps)
+    : RaySets(scene, curves, arguments, size, caps, std::vector<bool>(arguments.names.size(), true)) {}
+
+RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments,
+                 const Resolution& size, Caps caps, const std::vector<bool>& wanted)
+    : sets_(arguments.names.size()) {
+    Maker maker(scene, curves, arguments, size, caps);
+    for (size_t i = 0; i < sets_.size(); ++i)
+        if (wanted[i]) sets_[i] = maker.make(arguments.names[i]);
 }
 
 float RaySets::extent() const {

@@ -15,7 +15,7 @@ namespace strandlab {
 
 /// Which rays.
 struct RayArguments {
-    std::vector<std::string> names;  // ray sets, or .npy files
+    std::vector<std::string> names;  // ray sets or .npy files; ":shuffled" behind one: in random order
     std::string resolution;          // empty: by device
     std::string camera;
     uint64_t seed = 1;
@@ -25,24 +25,31 @@ struct RayArguments {
     void add_to(CLI::App& app, const std::string& default_names);
     /// Throws Error (usage) for a camera or a set that there is not: before work has begun on the others.
     void check() const;
+    /// What the sets are called in results: "diffuse", "primary shuffled", "rays.npy".
+    std::vector<std::string> set_names() const;
 };
 
 /// The camera that frames a scene as the options say.
 Camera camera_of(const Scene& scene, const RayArguments& arguments, const Resolution& size);
 
-/// The ray sets of a scene with the common reference's hits at their samples. Secondary and shadow rays
-/// spawn once from the reference's primary hits, and are the same for every primitive.
+/// The ray sets of a scene with the common reference's hits at their samples. Shadow, diffuse and ambient
+/// rays spawn once from the reference's primary hits, and are the same for every primitive.
 class RaySets {
   public:
     RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size,
             Caps caps);
+    /// Only those of the names whose entry in `wanted` is set; the others stay empty.
+    RaySets(const Scene& scene, const Curves& curves, const RayArguments& arguments, const Resolution& size,
+            Caps caps, const std::vector<bool>& wanted);
 
     const std::vector<MeasuredRays>& sets() const { return sets_; }
     /// Largest coordinate of any origin.
     float extent() const;
 
   private:
-    std::vector<MeasuredRays> sets_;
+    class Maker;
+
+    std::vector<MeasuredRays> sets_;  // of each name
 };
 
 }  // namespace strandlab

@@ -78,8 +78,8 @@ Verdict judge(const CaseInput& input, const PreparedCase& prepared, const Measur
     const TraceResult trace =
         prepared.traced->trace(rays.rays, {.shadow = rays.shadow, .samples = 1, .warm_up_ms = 0});
     const Hits sample = selected(trace.hits, rays.sample);
-    const Reference own =
-        make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
+    const std::vector<Surface> surfaces = own_surfaces(input.scene, prepared.choice);
+    const Reference own = make_scene_reference(input.scene, surfaces, input.curves, rays.sample_rays);
     Verdict verdict;
     verdict.error = compare_with(input.scene, input.curves, rays, sample, own, false);
     const PrimitiveChoice& choice = prepared.choice;
@@ -92,7 +92,7 @@ Verdict judge(const CaseInput& input, const PreparedCase& prepared, const Measur
             verdict.iterations.add(count);
     }
     if (with_embree && input.scene.is_plain() && !rays.shadow)
-        verdict.embree = second_opinion(input.curves, rays, sample, prepared.surfaces[0], own);
+        verdict.embree = second_opinion(input.curves, rays, sample, surfaces[0], own);
     return verdict;
 }
 

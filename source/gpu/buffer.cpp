@@ -56,8 +56,10 @@ Buffer::Buffer(const Device& device, size_t bytes, Use use)
     assert(bytes > 0);
     const DeviceState& state = device.state();
     if (state.info.max_allocation != 0 && bytes > state.info.max_allocation)
-        fail(ExitCode::device_lost, "{}: a buffer of {} bytes is more than the device allocates at once ({})",
-             state.info.name, bytes, state.info.max_allocation);
+        throw OutOfMemory(
+            ExitCode::device_lost,
+            fmt::format("{}: a buffer of {} bytes is more than the device allocates at once ({})",
+                        state.info.name, bytes, state.info.max_allocation));
     guarded("allocating a buffer", [&] {
         Implementation& self = *implementation_;
         self.bytes = bytes;

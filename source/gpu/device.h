@@ -1,6 +1,8 @@
 // A Vulkan device: choosing one, what it can do, buffers on it. No Vulkan header beyond this folder.
 #pragma once
 
+#include "base/error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -30,6 +32,11 @@ struct DeviceInfo {
     std::string missing;                    // what ray tracing needs and the device lacks; empty: usable
 
     bool is_usable() const { return missing.empty(); }
+};
+
+/// The device's memory ran out: a smaller scene may fit.
+struct OutOfMemory : Error {
+    using Error::Error;
 };
 
 struct DeviceOptions {

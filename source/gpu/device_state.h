@@ -19,9 +19,11 @@ auto guarded(const char* what, Body&& body) {
         fail(ExitCode::device_lost, "{}: the device was lost ({}); try fewer rays a launch or another device",
              what, error.what());
     } catch (const vk::OutOfDeviceMemoryError&) {
-        fail(ExitCode::device_lost, "{}: out of device memory; try a smaller model or fewer leaves", what);
+        throw OutOfMemory(ExitCode::device_lost,
+                          fmt::format("{}: out of device memory; try a smaller model or fewer leaves", what));
     } catch (const vk::OutOfHostMemoryError&) {
-        fail(ExitCode::device_lost, "{}: out of host memory; try a smaller model or fewer leaves", what);
+        throw OutOfMemory(ExitCode::device_lost,
+                          fmt::format("{}: out of host memory; try a smaller model or fewer leaves", what));
     } catch (const vk::SystemError& error) {
         fail(ExitCode::no_device, "{}: {}", what, error.what());
     }

@@ -50,33 +50,62 @@ Hits selected(const Hits& hits, const std::vector<uint32_t>& indices) {
     return some;
 }
 
-PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice) {
-    PreparedCase prepared{choice, nullptr, {}, 0};
+uint64_t HostGeometry::device_bytes() const {
+    // Boxes, a structure before and after compaction, scratch: lavapipe keeps 88 bytes a box, NVIDIA 128 a
+    // triangle.
+    constexpr uint64_t bytes_per_leaf = 24 + 128 + 128 + 64;
+    uint64_t bytes = 0;
+    for (const SceneModel& model : models) {
+        const Geometry& g = model.geometry;
+        bytes += g.leaf_count() * (bytes_per_leaf + sizeof(Leaf)) +
+                 g.vertices.size() * sizeof(g.vertices[0]) + g.leaf_records.bytes.size() +
+                 g.curve_records.bytes.size() + g.shading_records.bytes.size();
+    }
+    return bytes;
+}
+
+HostGeometry make_geometry(const Scene& scene, const PrimitiveChoice& choice) {
+    HostGeometry geometry{choice, {}, 0};
     const auto start = std::chrono::steady_clock::now();
-    std::vector<SceneModel> models;
-    for (uint32_t i = 0; i < input.scene.models.size(); ++i)
-        models.push_back(
-            {choice.primitive->build(input.scene.models[i], choice.options), input.scene.first_curve(i)});
-    prepared.geometry_ms = milliseconds_since(start);
-    prepared.traced =
-        input.device.prepare(*choice.primitive, std::move(models), input.scene.instances, input.options);
-    prepared.surfaces = surfaces_of(
-        input.scene, [&](const Curves& curves) { return choice.primitive->surface(curves, choice.options); });
+    for (uint32_t i = 0; i < scene.models.size(); ++i)
+        geometry.models.push_back(
+            {choice.primitive->build(scene.models[i], choice.options), scene.first_curve(i)});
+    geometry.milliseconds = milliseconds_since(start);
+    return geometry;
+}
+
+PreparedCase prepare_case(const CaseInput& input, HostGeometry geometry) {
+    PreparedCase prepared{geometry.choice, nullptr, geometry.milliseconds};
+    prepared.traced = input.device.prepare(*geometry.choice.primitive, std::move(geometry.models),
+                                           input.scene.instances, input.options);
     return prepared;
 }
 
+PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice) {
+    return prepare_case(input, make_geometry(input.scene, choice));
+}
+
+std::vector<Surface> own_surfaces(const Scene& scene, const PrimitiveChoice& choice) {
+    return surfaces_of(
+        scene, [&](const Curves& curves) { return choice.primitive->surface(curves, choice.options); });
+}
+
 Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays,
-                        const Hits& sample_hits, const Reference& reference, bool against_curves) {
+                        const Hits& sample_hits, const Reference& reference, bool against_curves,
+                        const Reference* own) {
     std::vector<glm::mat4x3> transforms;
     if (!scene.is_plain())
         for (const SceneInstance& instance : scene.instances)
             transforms.push_back(instance.world_from_object);
+    std::vector<uint8_t> inside_own(own != nullptr ? own->hits.size() : 0);
+    for (size_t i = 0; i < inside_own.size(); ++i) inside_own[i] = own->hits[i].starts_inside;
     return compare({.rays = rays.sample_rays,
                     .hits = sample_hits.hits,
                     .normals = sample_hits.normals,
                     .reference = reference.hits,
                     .decisive = reference.decisive,
                     .decisive_place = reference.decisive_place,
+                    .inside_own = inside_own,
                     .margin = DecisiveMargin{}.radius,
                     .curves = &curves,
                     .world_from_object = transforms,
@@ -84,20 +113,16 @@ Comparison compare_with(const Scene& scene, const Curves& curves, const Measured
                     .hit_or_miss_only = rays.shadow});
 }
 
-CaseResult run_case(const CaseInput& input, const PreparedCase& prepared, const MeasuredRays& rays) {
-    TraceResult trace = prepared.traced->trace(
-        rays.rays, {.shadow = rays.shadow, .samples = input.samples, .warm_up_ms = input.warm_up_ms});
-    CaseResult result;
-    result.trace_ms = std::move(trace.milliseconds);
-    for (const Hit& hit : trace.hits.hits) result.hits += hit.is_hit() ? 1 : 0;
-    if (rays.sample.empty() || prepared.choice.primitive->diagnostic) return result;
-    const Hits sample = selected(trace.hits, rays.sample);
+CaseErrors errors_of(const CaseInput& input, const PrimitiveChoice& choice, const MeasuredRays& rays,
+                     const Hits& sample_hits) {
+    if (rays.sample.empty() || choice.primitive->diagnostic) return {};
     const Reference own =
-        make_scene_reference(input.scene, prepared.surfaces, input.curves, rays.sample_rays);
-    result.own = compare_with(input.scene, input.curves, rays, sample, own, false);
+        make_scene_reference(input.scene, own_surfaces(input.scene, choice), input.curves, rays.sample_rays);
+    CaseErrors errors;
+    errors.own = compare_with(input.scene, input.curves, rays, sample_hits, own, false);
     if (!rays.common.hits.empty())
-        result.model = compare_with(input.scene, input.curves, rays, sample, rays.common, true);
-    return result;
+        errors.model = compare_with(input.scene, input.curves, rays, sample_hits, rays.common, true, &own);
+    return errors;
 }
 
 }  // namespace strandlab

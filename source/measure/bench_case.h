@@ -1,4 +1,4 @@
-// One case of a benchmark: one primitive on one scene with one ray set, its time, memory and errors.
+// One case of a benchmark: one primitive on one scene with one ray set; what it needs, and its errors.
 #pragma once
 
 #include "measure/comparison.h"
@@ -6,8 +6,9 @@
 #include "trace/scene_reference.h"
 #include "trace/trace_device.h"
 
-#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace strandlab {
@@ -21,7 +22,11 @@ std::vector<Ray> selected(const Rays& rays, const std::vector<uint32_t>& indices
 /// A ray set with what its errors are measured by: the sampled rays and the common reference's answer.
 struct MeasuredRays {
     Rays rays;
-    bool shadow = false;           // only hit or miss counts
+    std::string kind;     // name of the set before it was shuffled, or "file"
+    bool shadow = false;  // only hit or miss counts
+    bool shuffled = false;
+    bool is_picture = false;       // row by row, every pixel one ray
+    std::string camera;            // that it was made with; empty: none
     std::vector<uint32_t> sample;  // indices of the rays below
     std::vector<Ray> sample_rays;
     Reference common;  // empty: no model error is wanted
@@ -37,31 +42,48 @@ struct CaseInput {
     SceneOptions options;
 };
 
-/// What a case gave.
-struct CaseResult {
-    std::vector<double> trace_ms;
-    size_t hits = 0;
-    Comparison own;    // against the primitive's own surface: the intersector's error
-    Comparison model;  // against the common reference: everything
+/// The geometry of all models for one primitive, on the host.
+struct HostGeometry {
+    PrimitiveChoice choice;
+    std::vector<SceneModel> models;
+    double milliseconds = 0;  // to make it
+
+    /// Bytes on the device while it is being put there, at most: by the largest structures and scratch
+    /// buffers a leaf seen on any device.
+    uint64_t device_bytes() const;
 };
+HostGeometry make_geometry(const Scene& scene, const PrimitiveChoice& choice);
 
 /// A scene that is ready for one primitive, and what making it cost.
 struct PreparedCase {
     PrimitiveChoice choice;
     std::unique_ptr<TracedScene> traced;
-    std::vector<Surface> surfaces;  // its own
-    double geometry_ms = 0;         // host: boxes and records
+    double geometry_ms = 0;  // host: boxes and records
+
+    uint64_t resident_bytes() const { return traced->cost().builds.kept_bytes + traced->cost().record_bytes; }
 };
 
-/// Builds the geometry and puts it on the device.
+/// Puts the geometry on the device.
+PreparedCase prepare_case(const CaseInput& input, HostGeometry geometry);
+/// Makes it first.
 PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice);
 
-/// Traces a ray set and compares.
-CaseResult run_case(const CaseInput& input, const PreparedCase& prepared, const MeasuredRays& rays);
+/// The surfaces of the scene's models that the records of a primitive decode to.
+std::vector<Surface> own_surfaces(const Scene& scene, const PrimitiveChoice& choice);
 
-/// Errors of given hits at the sampled rays, as run_case measures them.
+/// Errors at the sampled rays; empty where none are wanted or the primitive has no surface to be wrong about.
+struct CaseErrors {
+    std::optional<Comparison> own;    // against the primitive's own surface: the intersector's error
+    std::optional<Comparison> model;  // against the common reference: everything
+};
+CaseErrors errors_of(const CaseInput& input, const PrimitiveChoice& choice, const MeasuredRays& rays,
+                     const Hits& sample_hits);
+
+/// Errors of given hits at the sampled rays, as errors_of measures them. own: the reference on the surface
+/// that was traced, where that is another one.
 Comparison compare_with(const Scene& scene, const Curves& curves, const MeasuredRays& rays,
-                        const Hits& sample_hits, const Reference& reference, bool against_curves);
+                        const Hits& sample_hits, const Reference& reference, bool against_curves,
+                        const Reference* own = nullptr);
 
 /// The hits at the sampled rays.
 Hits selected(const Hits& hits, const std::vector<uint32_t>& indices);

@@ -11,7 +11,7 @@ namespace strandlab {
 namespace {
 
 /// decisive_strand: hit or miss and the strand are decisive, the place is not.
-enum class Group : uint8_t { decisive, decisive_strand, undecided, on_cap, inside };
+enum class Group : uint8_t { decisive, decisive_strand, undecided, on_cap, inside, inside_own };
 
 struct Judged {
     RayError error;
@@ -21,6 +21,7 @@ struct Judged {
 Group group_of(const ComparisonInput& input, size_t ray) {
     const ReferenceHit& reference = input.reference[ray];
     if (reference.starts_inside) return Group::inside;
+    if (!input.inside_own.empty() && input.inside_own[ray] != 0) return Group::inside_own;
     if (reference.is_hit() && reference.on_cap) return Group::on_cap;
     if (!input.decisive.empty() && input.decisive[ray] == 0) return Group::undecided;
     const bool has_place = input.decisive_place.empty() || input.decisive_place[ray] != 0;
@@ -122,7 +123,8 @@ Comparison compare(const ComparisonInput& input) {
     const std::array selections{Selection{&result.decisive, Group::decisive, Group::decisive_strand},
                                 Selection{&result.all, Group::decisive, Group::undecided},
                                 Selection{&result.on_cap, Group::on_cap, Group::on_cap},
-                                Selection{&result.inside, Group::inside, Group::inside}};
+                                Selection{&result.inside, Group::inside, Group::inside},
+                                Selection{&result.inside_own, Group::inside_own, Group::inside_own}};
     // Task k of a group is its measure k, the last one its counts: each writes its own part of the tally.
     constexpr size_t tasks = measure_count + 1;
     parallel_for(selections.size() * tasks, [&](size_t task) {

@@ -54,8 +54,8 @@ struct Tally {
     }
 };
 
-/// Errors of one ray set. The three groups `all`, `on_cap` and `inside` hold every ray once; `decisive` is
-/// the part of `all` that verdicts may rest on. No figure mixes two groups.
+/// Errors of one ray set. The groups `all`, `on_cap`, `inside` and `inside_own` hold every ray once;
+/// `decisive` is the part of `all` that verdicts may rest on. No figure mixes two groups.
 struct Comparison {
     /// Above this margin the surface is too small for its distance to say which rays are right.
     static constexpr double largest_margin = 0.1;
@@ -66,8 +66,9 @@ struct Comparison {
     Tally all;          // rays that start outside and whose reference hit, if any, is not on a cap
     Tally on_cap;       // the reference hit lies on a strand-end cap (and the ray starts outside)
     Tally inside;       // the ray starts inside the reference surface
+    Tally inside_own;   // it does not, but it starts inside the surface that was traced
 
-    uint64_t rays() const { return all.rays + on_cap.rays + inside.rays; }
+    uint64_t rays() const { return all.rays + on_cap.rays + inside.rays + inside_own.rays; }
     uint64_t undecided() const { return all.rays - decisive.rays; }
     /// Share of the rays of `all` that are undecided.
     double undecided_share() const {

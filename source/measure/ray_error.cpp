@@ -54,6 +54,7 @@ RayErrors::RayErrors(const ComparisonInput& input) : input_(input) {
     assert(input.normals.empty() || input.normals.size() == input.rays.size());
     assert(input.decisive.empty() || input.decisive.size() == input.rays.size());
     assert(input.decisive_place.empty() || input.decisive_place.size() == input.rays.size());
+    assert(input.inside_own.empty() || input.inside_own.size() == input.rays.size());
     assert(input.curves != nullptr || input.hit_or_miss_only || !input.knows_curves);
     for (const glm::mat4x3& transform : input.world_from_object)
         object_from_world_.push_back(glm::inverse(glm::dmat4(glm::mat4(transform))));

@@ -61,6 +61,9 @@ struct ComparisonInput {
     /// 0: the place of the hit is undecided, though hit or miss and the strand may be decisive; empty: the
     /// place of every decisive ray is.
     std::span<const uint8_t> decisive_place = {};
+    /// Not 0: the ray starts inside the surface that was traced; empty: none does. The reference knows only
+    /// of its own surface.
+    std::span<const uint8_t> inside_own = {};
     double margin = 0;               // the d that decisive was found with
     const Curves* curves = nullptr;  // strands for identity and u; centre lines for h and tangents
 

@@ -42,7 +42,8 @@ Table outcome_table(const Comparison& comparison) {
     std::vector<NamedTally> groups;
     for (const NamedTally& group :
          {NamedTally{"decisive", &comparison.decisive}, NamedTally{"all", &comparison.all},
-          NamedTally{"on a cap", &comparison.on_cap}, NamedTally{"starts inside", &comparison.inside}}) {
+          NamedTally{"on a cap", &comparison.on_cap}, NamedTally{"starts inside", &comparison.inside},
+          NamedTally{"starts inside own", &comparison.inside_own}}) {
         if (group.tally->rays == 0) continue;
         groups.push_back(group);
         columns.push_back({.heading = group.name, .unit = {}});

@@ -1,6 +1,9 @@
 #include "report/context.h"
 
 #include "base/build_info.h"
+#include "base/hash.h"
+#include "gpu/embedded_shaders.h"
+#include "primitives/primitive.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -54,6 +57,17 @@ std::string utc_now() {
                        parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
+uint64_t hash_of_shaders() {
+    Hash sum;
+    for (const char* name : {"trace.rgen", "trace.rmiss", "own_curve.rahit"}) sum.add(embedded_shader(name));
+    for (const Primitive& primitive : primitives()) {
+        const PrimitiveShaders& shaders = primitive.shaders;
+        for (const std::string& name : {shaders.intersection, shaders.closest_hit, shaders.any_hit})
+            sum.add(embedded_shader(name));
+    }
+    return sum.value();
+}
+
 }  // namespace
 
 Context current_context() {
@@ -71,6 +85,7 @@ Context current_context() {
     const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGE_SIZE);
     if (pages > 0 && page_bytes > 0)
         context.memory_bytes = static_cast<uint64_t>(pages) * static_cast<uint64_t>(page_bytes);
+    context.shaders = hash_of_shaders();
     context.system = system_text();
     context.time = utc_now();
     return context;

@@ -17,8 +17,9 @@ struct Context {
     size_t cores = 0;    // that the program may run on
     size_t threads = 0;  // that it uses (--threads)
     uint64_t memory_bytes = 0;
-    std::string system;  // "Debian GNU/Linux 12 (bookworm), Linux 6.1.0"
-    std::string time;    // UTC, "2025-01-31T12:00:00Z", when the context was taken
+    uint64_t shaders = 0;  // hash of the SPIR-V of all primitives
+    std::string system;    // "Debian GNU/Linux 12 (bookworm), Linux 6.1.0"
+    std::string time;      // UTC, "2025-01-31T12:00:00Z", when the context was taken
 };
 
 Context current_context();

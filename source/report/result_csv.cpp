@@ -42,8 +42,8 @@ bool ends_with_any(std::string_view text, std::span<const std::string_view> ends
 bool is_column(std::string_view path) {
     constexpr std::array<std::string_view, 2> single_rays{".first_ray", ".worst_ray"};
     if (ends_with_any(path, single_rays)) return false;
-    const bool in_other_group =
-        contains(path, "_error.all.") || contains(path, "_error.on_cap.") || contains(path, "_error.inside.");
+    const bool in_other_group = contains(path, "_error.all.") || contains(path, "_error.on_cap.") ||
+                                contains(path, "_error.inside.") || contains(path, "_error.inside_own.");
     if (!in_other_group) return true;
     constexpr std::array<std::string_view, 6> counts{"nan.count",         "false_hit.count",
                                                      "false_miss.count",  "wrong_strand.count",
@@ -67,11 +67,14 @@ void for_each_value(const Json& object, const std::string& prefix,
 /// A row in which everything is measured, so that every column exists.
 Json full_row() {
     ResultRow row;
-    row.trace_ms = {1};
+    row.trace_ms = row.wall_ms = {1};
+    row.ratio = {"", {1}};
+    row.picture = "x";
     row.geometry_ms = 0;
     row.cost.emplace();
     Comparison comparison;
-    for (Tally* tally : {&comparison.decisive, &comparison.all, &comparison.on_cap, &comparison.inside})
+    for (Tally* tally : {&comparison.decisive, &comparison.all, &comparison.on_cap, &comparison.inside,
+                         &comparison.inside_own})
         for (Percentiles& percentiles : tally->measures) percentiles.count = 1;
     row.intersector_error = row.model_error = comparison;
     return to_json(row);

@@ -32,6 +32,8 @@ namespace {
 
 Json optional_number(const std::optional<double>& value) { return value ? json_number(*value) : Json(); }
 
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
 Json hash_text(uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 Json to_json(const Count& count) {
@@ -75,17 +77,39 @@ Json to_json(const Summary& s) {
             {"max", s.max}};
 }
 
+Json to_json(const SweepFacts& sweep) {
+    const SweepAxes none;
+    const SweepAxes& axes = sweep.axes ? *sweep.axes : none;
+    return {
+        {"id", hash_text(sweep.id)},       {"case", sweep.number},        {"cases", axes.cases()},
+        {"shard", sweep.shard.index},      {"shards", sweep.shard.count}, {"models", axes.models},
+        {"resolutions", axes.resolutions}, {"rays", axes.rays},           {"primitives", axes.primitives}};
+}
+
+Json to_json(const BenchSettings& settings) {
+    return {{"repeat", settings.repeat},         {"warm_up_ms", json_number(settings.warm_up_ms)},
+            {"error_rays", settings.error_rays}, {"leaf_order", settings.leaf_order},
+            {"compaction", settings.compaction}, {"normals", settings.normals},
+            {"caps", name_of(settings.caps)}};
+}
+
 Json to_json(const ModelFacts& model) {
-    return {{"name", model.name},
-            {"hash", hash_text(model.hash)},
-            {"curves", model.curves},
-            {"strands", model.strands},
-            {"instances", model.instances}};
+    return {{"name", model.name},       {"hash", hash_text(model.hash)}, {"curves", model.curves},
+            {"strands", model.strands}, {"instances", model.instances},  {"spec", model.spec}};
 }
 
 Json to_json(const RayFacts& rays) {
-    return {{"name", rays.name},   {"count", rays.count},   {"hash", hash_text(rays.hash)},
-            {"width", rays.width}, {"height", rays.height}, {"samples", rays.samples}};
+    return {{"name", rays.name},
+            {"kind", rays.kind},
+            {"shuffled", rays.shuffled},
+            {"seed", rays.seed},
+            {"count", rays.count},
+            {"hash", hash_text(rays.hash)},
+            {"width", rays.width},
+            {"height", rays.height},
+            {"samples", rays.samples},
+            {"resolution", rays.resolution},
+            {"camera", text_or_null(rays.camera)}};
 }
 
 Json to_json(const PrimitiveFacts& primitive) {
@@ -105,23 +129,46 @@ Json to_json(const DeviceFacts& device) {
             {"api_version", device.api_version},
             {"kind", device.kind},
             {"class", device.device_class()},
+            {"ray_tracing_hardware", device.hardware_traversal},
+            {"memory_bytes", device.memory_bytes},
             {"validation_layers", device.validation_layers}};
 }
 
+Json numbers(const std::vector<double>& values) {
+    Json array = Json::array();
+    for (const double value : values) array.push_back(json_number(value));
+    return array;
+}
+
+Json ratio_of(const ResultRow& row) {
+    const auto summary = row.ratio_summary();
+    if (!summary) return {};
+    return {{"baseline", row.ratio->baseline},
+            {"median", summary->median},
+            {"low", summary->median_bounds.low},
+            {"high", summary->median_bounds.high},
+            {"samples", numbers(row.ratio->samples)}};
+}
+
 Json time_of(const ResultRow& row) {
-    const auto trace = row.trace_time();
-    Json samples = Json::array();
-    for (const double sample : row.trace_ms) samples.push_back(json_number(sample));
+    const auto trace = row.trace_time(), wall = row.wall_time();
     const auto of_cost = [&](auto&& value) { return row.cost ? json_number(value(*row.cost)) : Json(); };
     return {{"trace_ms", trace ? to_json(*trace) : Json()},
+            {"spread", optional_number(row.spread())},
+            {"warning", text_or_null(row.warning())},
             {"mrays_per_second", optional_number(row.mrays_per_second())},
+            {"wall_ms", wall ? to_json(*wall) : Json()},
+            {"ratio", ratio_of(row)},
+            {"group", text_or_null(row.group)},
             {"geometry_ms", optional_number(row.geometry_ms)},
             {"order_ms", of_cost([](const SceneCost& c) { return c.order_ms; })},
             {"upload_ms", of_cost([](const SceneCost& c) { return c.builds.upload_ms; })},
             {"build_ms", of_cost([](const SceneCost& c) { return c.builds.build_ms; })},
             {"compaction_ms", of_cost([](const SceneCost& c) { return c.builds.compaction_ms; })},
             {"pipeline_ms", of_cost([](const SceneCost& c) { return c.pipeline_ms; })},
-            {"samples_ms", samples}};
+            {"samples_ms", numbers(row.trace_ms)},
+            {"wall_samples_ms", numbers(row.wall_ms)},
+            {"positions", row.positions}};
 }
 
 Json memory_of(const ResultRow& row) {
@@ -134,6 +181,7 @@ Json memory_of(const ResultRow& row) {
             {"kept_bytes", of_cost([](const SceneCost& c) { return c.builds.kept_bytes; })},
             {"record_bytes", of_cost([](const SceneCost& c) { return c.record_bytes; })},
             {"peak_bytes", of_cost([](const SceneCost& c) { return c.builds.peak_bytes; })},
+            {"buffer_bytes", row.buffer_bytes() ? Json(*row.buffer_bytes()) : Json()},
             {"resident_bytes", row.resident_bytes() ? Json(*row.resident_bytes()) : Json()},
             {"bytes_per_curve", optional_number(row.bytes_per_curve())}};
 }
@@ -144,7 +192,8 @@ Json to_json(const Context& context) {
             {"flags", context.flags},       {"build_type", context.build_type},
             {"cpu", context.cpu},           {"cores", context.cores},
             {"threads", context.threads},   {"memory_bytes", context.memory_bytes},
-            {"system", context.system},     {"time", context.time}};
+            {"system", context.system},     {"shaders", hash_text(context.shaders)},
+            {"time", context.time}};
 }
 
 }  // namespace
@@ -157,21 +206,26 @@ Json to_json(const Comparison& comparison) {
             {"decisive", to_json(comparison.decisive)},
             {"all", to_json(comparison.all)},
             {"on_cap", to_json(comparison.on_cap)},
-            {"inside", to_json(comparison.inside)}};
+            {"inside", to_json(comparison.inside)},
+            {"inside_own", to_json(comparison.inside_own)}};
 }
 
 Json to_json(const ResultRow& row) {
     return {{"schema", ResultRow::schema},
             {"command", row.command},
             {"key", row.key()},
+            {"sweep", to_json(row.sweep)},
+            {"reproduce", row.reproduce},
             {"model", to_json(row.model)},
             {"rays", to_json(row.rays)},
             {"primitive", to_json(row.primitive)},
             {"device", to_json(row.device)},
+            {"settings", to_json(row.settings)},
             {"time", time_of(row)},
             {"memory", memory_of(row)},
             {"intersector_error", row.intersector_error ? to_json(*row.intersector_error) : Json()},
             {"model_error", row.model_error ? to_json(*row.model_error) : Json()},
+            {"images", row.picture.empty() ? Json() : Json{{"rendered", row.picture}}},
             {"seed", row.seed},
             {"context", to_json(row.context)}};
 }

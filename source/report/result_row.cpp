@@ -7,7 +7,7 @@
 namespace strandlab {
 
 ModelFacts facts_of(std::string name, const Curves& curves, size_t instances) {
-    return {std::move(name), hash(curves), curves.curves.size(), curves.strands.size(), instances};
+    return {std::move(name), hash(curves), curves.curves.size(), curves.strands.size(), instances, {}};
 }
 
 RayFacts facts_of(const Rays& rays, uint32_t samples) {
@@ -25,13 +25,49 @@ PrimitiveFacts facts_of(const PrimitiveChoice& choice, Caps wanted_caps) {
 }
 
 DeviceFacts facts_of(const DeviceInfo& info, bool validation_layers) {
-    return {info.name,        info.driver, info.api_version, info.kind, info.has_ray_tracing_hardware,
-            validation_layers};
+    return {info.name,         info.driver, info.api_version, info.kind, info.has_ray_tracing_hardware,
+            validation_layers, info.memory};
 }
 
-std::optional<Summary> ResultRow::trace_time() const {
-    const Summary summary = summarise(trace_ms, seed);
+std::string BenchSettings::key() const {
+    std::string text;
+    if (leaf_order != "auto") text += " order=" + leaf_order;
+    if (!compaction) text += " compaction=0";
+    if (!normals) text += " normals=0";
+    return text;
+}
+
+namespace {
+
+std::optional<Summary> summary_of(const std::vector<double>& samples, uint64_t seed) {
+    const Summary summary = summarise(samples, seed);
     return summary.count > 0 ? std::optional(summary) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Summary> ResultRow::trace_time() const { return summary_of(trace_ms, seed); }
+std::optional<Summary> ResultRow::wall_time() const { return summary_of(wall_ms, seed); }
+
+std::optional<Summary> ResultRow::ratio_summary() const {
+    return ratio ? summary_of(ratio->samples, seed) : std::nullopt;
+}
+
+std::optional<double> ResultRow::spread() const {
+    const auto time = trace_time();
+    if (!time || time->count < 2 || !(time->median > 0)) return std::nullopt;
+    return (time->p95 - time->p5) / (2 * time->median);
+}
+
+std::string ResultRow::warning() const {
+    constexpr double wide = 0.1;
+    const auto width = spread();
+    if (!width || *width <= wide) return "";
+    const char* advice =
+        device.kind == "cpu"
+            ? "close other programs, give --threads fewer cores than there are, or raise --repeat"
+            : "lock the clocks (nvidia-smi -lgc), close other programs, or raise --repeat";
+    return fmt::format("samples spread by +-{:.0f} %: {}", 100 * *width, advice);
 }
 
 std::optional<double> ResultRow::mrays_per_second() const {
@@ -45,6 +81,11 @@ std::optional<uint64_t> ResultRow::resident_bytes() const {
     return cost->builds.kept_bytes + cost->record_bytes;
 }
 
+std::optional<uint64_t> ResultRow::buffer_bytes() const {
+    if (!cost) return std::nullopt;
+    return cost->builds.input_bytes + cost->record_bytes;
+}
+
 std::optional<double> ResultRow::bytes_per_curve() const {
     const auto bytes = resident_bytes();
     if (!bytes || model.curves == 0) return std::nullopt;
@@ -52,9 +93,9 @@ std::optional<double> ResultRow::bytes_per_curve() const {
 }
 
 std::string ResultRow::key() const {
-    return fmt::format("{} {:016x} x{} | {} {:016x} | {} caps={} | {} | seed={}", model.name, model.hash,
+    return fmt::format("{} {:016x} x{} | {} {:016x} | {} caps={} | {} | seed={}{}", model.name, model.hash,
                        model.instances, rays.name, rays.hash, primitive.label, name_of(primitive.caps),
-                       device.name, seed);
+                       device.name, seed, settings.key());
 }
 
 }  // namespace strandlab

@@ -200,23 +200,27 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     cost_.pipeline_ms = stopwatch.milliseconds();
 }
 
-std::vector<RayTracingPipeline::Launch> GpuScene::launches(const Rays& rays,
-                                                           layout::TraceParameters parameters) const {
+std::vector<RayTracingPipeline::Launch> GpuScene::launches(const GpuRays& rays, bool shadow) const {
+    layout::TraceParameters parameters{0, rays.rays_.address(), rays.hits_.address(),
+                                       normals_ ? rays.normals_.address() : 0, rows_.address()};
+    parameters.ray_flags = shadow ? shadow_flags : 0;
+    parameters.is_shadow = shadow ? 1 : 0;
     std::vector<RayTracingPipeline::Launch> all;
     for (const Top& top : tops_) add_launches(rays, parameters, top, all);
     return all;
 }
 
-void GpuScene::add_launches(const Rays& rays, layout::TraceParameters parameters, const Top& top,
+void GpuScene::add_launches(const GpuRays& rays, layout::TraceParameters parameters, const Top& top,
                             std::vector<RayTracingPipeline::Launch>& all) const {
-    const auto end = static_cast<uint32_t>(std::min<size_t>(rays.rays.size(), top.end_ray));
+    const auto end = static_cast<uint32_t>(std::min<size_t>(rays.count_, top.end_ray));
     if (top.first_ray >= end) return;
     const uint32_t count = end - top.first_ray;
     // Pictures are launched in their own shape, which keeps neighbouring rays together on GPUs. Other sets
     // have neighbours only along the list: in a launch of another shape, tiles of it would mix far rays.
     constexpr uint32_t longest_row = 1u << 16;
-    const bool shaped = rays.width != 0 && uint64_t(rays.width) * rays.height >= count && tops_.size() == 1;
-    const uint32_t width = shaped ? rays.width : std::min(count, longest_row);
+    const bool shaped =
+        rays.width_ != 0 && uint64_t(rays.width_) * rays.height_ >= count && tops_.size() == 1;
+    const uint32_t width = shaped ? rays.width_ : std::min(count, longest_row);
     const uint32_t height = (count + width - 1) / width;
     const auto rows = static_cast<uint32_t>(
         std::clamp<uint64_t>(device_.info().max_launch / width, 1, height));  // of one launch
@@ -232,31 +236,45 @@ void GpuScene::add_launches(const Rays& rays, layout::TraceParameters parameters
     }
 }
 
+double GpuScene::run(GpuRays& rays, bool shadow) const {
+    assert(!normals_ || !rays.normals_.is_empty() || rays.count_ == 0);
+    if (rays.count_ == 0) return 0;
+    if (pipeline_) return pipeline_->run(launches(rays, shadow));
+    // Without leaves there is nothing to trace: every ray misses.
+    const std::vector<Hit> misses(rays.count_);
+    rays.hits_.upload(std::as_bytes(std::span(misses)));
+    return 0;
+}
+
 TraceResult GpuScene::trace(const Rays& rays, const TraceOptions& options) const {
+    GpuRays buffers(device_, rays, normals_);
     TraceResult result;
-    result.hits.hits.resize(rays.rays.size());
-    if (normals_) result.hits.normals.resize(rays.rays.size());
-    if (rays.rays.empty() || !pipeline_) {
-        result.milliseconds.assign(options.samples, 0.0);
-        return result;
-    }
+    for (double spent = 0; pipeline_ && !rays.rays.empty() && spent < options.warm_up_ms;)
+        spent += std::max(1e-3, run(buffers, options.shadow));
+    for (uint32_t i = 0; i < options.samples; ++i)
+        result.milliseconds.push_back(run(buffers, options.shadow));
+    result.hits = buffers.hits();
+    return result;
+}
+
+GpuRays::GpuRays(const Device& device, const Rays& rays, bool normals)
+    : count_(rays.rays.size()), width_(rays.width), height_(rays.height) {
+    if (count_ == 0) return;
     std::vector<Ray> valid = rays.rays;
     disable_invalid(valid);
-    const Buffer ray_buffer = make_buffer(device_, std::span<const Ray>(valid), Buffer::Use::storage);
-    const Buffer hit_buffer(device_, std::max<size_t>(16, valid.size() * sizeof(Hit)), Buffer::Use::storage);
-    Buffer normal_buffer;
-    if (normals_)
-        normal_buffer =
-            Buffer(device_, std::max<size_t>(16, valid.size() * sizeof(glm::vec3)), Buffer::Use::storage);
-    layout::TraceParameters parameters{0, ray_buffer.address(), hit_buffer.address(), normal_buffer.address(),
-                                       rows_.address()};
-    parameters.ray_flags = options.shadow ? shadow_flags : 0;
-    parameters.is_shadow = options.shadow ? 1 : 0;
-    const auto all = launches(rays, parameters);
-    for (double spent = 0; spent < options.warm_up_ms;) spent += std::max(1e-3, pipeline_->run(all));
-    for (uint32_t i = 0; i < options.samples; ++i) result.milliseconds.push_back(pipeline_->run(all));
-    hit_buffer.download(std::as_writable_bytes(std::span(result.hits.hits)));
-    if (normals_) normal_buffer.download(std::as_writable_bytes(std::span(result.hits.normals)));
+    rays_ = make_buffer(device, std::span<const Ray>(valid), Buffer::Use::storage);
+    hits_ = Buffer(device, std::max<size_t>(16, count_ * sizeof(Hit)), Buffer::Use::storage);
+    if (normals)
+        normals_ = Buffer(device, std::max<size_t>(16, count_ * sizeof(glm::vec3)), Buffer::Use::storage);
+}
+
+Hits GpuRays::hits() const {
+    Hits result;
+    result.hits.resize(count_);
+    if (count_ != 0) hits_.download(std::as_writable_bytes(std::span(result.hits)));
+    if (normals_.is_empty()) return result;
+    result.normals.resize(count_);
+    normals_.download(std::as_writable_bytes(std::span(result.normals)));
     return result;
 }
 

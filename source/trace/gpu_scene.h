@@ -85,6 +85,23 @@ struct TraceResult {
     std::vector<double> milliseconds;
 };
 
+/// Rays on the device with room for their hits: made once, traced through any number of scenes.
+class GpuRays {
+  public:
+    /// Invalid rays count as misses. normals: scenes that were made for them may be traced.
+    GpuRays(const Device& device, const Rays& rays, bool normals);
+
+    /// What the last trace wrote; undefined before it.
+    Hits hits() const;
+
+  private:
+    friend class GpuScene;
+
+    size_t count_ = 0;
+    uint32_t width_ = 0, height_ = 0;
+    Buffer rays_, hits_, normals_;
+};
+
 class GpuScene {
   public:
     /// Orders, pads and uploads; builds the structures; compiles the pipeline. The models are consumed.
@@ -96,6 +113,8 @@ class GpuScene {
 
     /// Traces all rays; invalid ones count as misses. normals as the scene was made for.
     TraceResult trace(const Rays& rays, const TraceOptions& options = {}) const;
+    /// Traces once; the device time in milliseconds. shadow as in TraceOptions.
+    double run(GpuRays& rays, bool shadow) const;
 
   private:
     struct Part {
@@ -118,9 +137,8 @@ class GpuScene {
     void build_parts(std::span<const BottomLevelInput> inputs, size_t first_part);
     void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
                        PipelineStore* store);
-    std::vector<RayTracingPipeline::Launch> launches(const Rays& rays,
-                                                     layout::TraceParameters parameters) const;
-    void add_launches(const Rays& rays, layout::TraceParameters parameters, const Top& top,
+    std::vector<RayTracingPipeline::Launch> launches(const GpuRays& rays, bool shadow) const;
+    void add_launches(const GpuRays& rays, layout::TraceParameters parameters, const Top& top,
                       std::vector<RayTracingPipeline::Launch>& all) const;
 
     Device device_;

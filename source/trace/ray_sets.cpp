@@ -24,7 +24,14 @@ namespace strandlab {
 namespace {
 
 /// Streams of the generator: each kind of ray draws its own numbers from one seed.
-enum Stream : uint64_t { stream_jitter = 1, stream_secondary, stream_interior, stream_shuffle };
+enum Stream : uint64_t {
+    stream_jitter = 1,
+    stream_diffuse,
+    stream_interior,
+    stream_shuffle,
+    stream_ambient,
+    stream_grazing
+};
 
 Ray ray_from(const glm::dvec3& origin, const glm::dvec3& direction) {
     Ray ray;
@@ -93,8 +100,13 @@ glm::dvec2 sample_place(const PictureSize& size, uint64_t seed, size_t pixel, ui
     return {fraction(x + sample * 0.75487766624669276), fraction(y + sample * 0.56984029099805327)};
 }
 
-Ray interior_ray(const Curves& curves, uint64_t seed, size_t index) {
-    Random random(seed, stream_interior, index);
+/// A random point of a strand's axis, and a direction across it.
+struct AxisPoint {
+    glm::dvec3 centre, normal;
+    double radius;
+};
+
+AxisPoint random_axis_point(const Curves& curves, Random& random) {
     const auto any_strand = [&] {
         return curves.strands[random.below(static_cast<uint32_t>(curves.strands.size()))];
     };
@@ -109,19 +121,64 @@ Ray interior_ray(const Curves& curves, uint64_t seed, size_t index) {
     const glm::dvec2 disc = sample_disc(random);
     const glm::dvec3 sum = across * disc.x + along * disc.y;
     const glm::dvec3 normal = sum == glm::dvec3(0) ? across : glm::normalize(sum);
-    const double radius = std::max(centre.w, 0.0);
-    return ray_from(moved_off(glm::dvec3(centre) + radius * normal, normal, radius),
-                    sample_cosine(random, normal));
+    return {glm::dvec3(centre), normal, std::max(centre.w, 0.0)};
+}
+
+Ray interior_ray(const Curves& curves, uint64_t seed, size_t index) {
+    Random random(seed, stream_interior, index);
+    const AxisPoint at = random_axis_point(curves, random);
+    return ray_from(moved_off(at.centre + at.radius * at.normal, at.normal, at.radius),
+                    sample_cosine(random, at.normal));
+}
+
+Ray grazing_ray(const Curves& curves, uint64_t seed, size_t index) {
+    Random random(seed, stream_grazing, index);
+    const AxisPoint at = random_axis_point(curves, random);
+    const glm::dvec3 across = orthogonal_to(at.normal), along = glm::cross(at.normal, across);
+    const glm::dvec2 disc = sample_disc(random);
+    const glm::dvec3 sum = across * disc.x + along * disc.y;
+    const glm::dvec3 direction = sum == glm::dvec3(0) ? across : glm::normalize(sum);
+    const glm::dvec3 passed = at.centre + at.radius * random.range(0.95, 1.05) * at.normal;
+    return ray_from(passed - 20 * at.radius * direction, direction);
+}
+
+template <class MakeRay>
+Rays rays_of_strands(const Curves& curves, size_t count, std::string_view name, const MakeRay& make) {
+    if (curves.curves.empty() || curves.strands.empty())
+        fail(ExitCode::bad_input, "--rays {}: the model has no strands for rays to start at", name);
+    Rays rays;
+    rays.rays.resize(count);
+    parallel_for(count, [&](size_t i) { rays.rays[i] = make(i); });
+    set_launch_shape(rays);
+    return rays;
+}
+
+/// The diagonal of the box around the rays' origins.
+double diagonal_of(const std::vector<Ray>& rays) {
+    if (rays.empty()) return 0;
+    glm::dvec3 low(rays.front().origin), high = low;
+    for (const Ray& ray : rays) {
+        low = glm::min(low, glm::dvec3(ray.origin));
+        high = glm::max(high, glm::dvec3(ray.origin));
+    }
+    return glm::length(high - low);
 }
 
 constexpr std::array table = {
-    RaySetInfo{"primary", "from the camera through every pixel, row by row", false,
+    RaySetInfo{"primary", "from the camera through every pixel, row by row", false, false,
                [](const RaySetInput& in) { return primary_rays(in.camera, in.size, in.seed); }},
-    RaySetInfo{"secondary", "from the reference's primary hits, cosine-distributed about the normal", true,
-               [](const RaySetInput& in) { return secondary_rays(in.primary, in.seed); }},
-    RaySetInfo{"shadow", "from the reference's primary hits towards a distant light", true,
+    RaySetInfo{"shadow", "from the reference's primary hits towards a distant light", true, true,
                [](const RaySetInput& in) { return shadow_rays(in.primary, in.to_light); }},
+    RaySetInfo{"diffuse",
+               "one bounce: from the reference's primary hits, cosine-distributed about the normal", true,
+               false, [](const RaySetInput& in) { return diffuse_rays(in.primary, in.seed); }},
+    RaySetInfo{"ambient", "ambient occlusion: like diffuse, but short, and hit or miss only", true, true,
+               [](const RaySetInput& in) { return ambient_rays(in.primary, in.seed); }},
+    RaySetInfo{"grazing", "past random points of random strands, within 5 % of a radius of the silhouette",
+               false, false,
+               [](const RaySetInput& in) { return grazing_rays(in.curves, in.size.rays(), in.seed); }},
     RaySetInfo{"interior", "from random points of random strands, cosine-distributed about the normal", false,
+               false,
                [](const RaySetInput& in) { return interior_rays(in.curves, in.size.rays(), in.seed); }},
 };
 
@@ -153,11 +210,21 @@ Rays primary_rays(const Camera& camera, const PictureSize& size, uint64_t seed) 
     return rays;
 }
 
-Rays secondary_rays(const PrimaryHits& primary, uint64_t seed) {
+Rays diffuse_rays(const PrimaryHits& primary, uint64_t seed) {
     return spawned(primary, [&](size_t i, const glm::dvec3& normal) {
-        Random random(seed, stream_secondary, i);
+        Random random(seed, stream_diffuse, i);
         return sample_cosine(random, normal);
     });
+}
+
+Rays ambient_rays(const PrimaryHits& primary, uint64_t seed) {
+    Rays rays = spawned(primary, [&](size_t i, const glm::dvec3& normal) {
+        Random random(seed, stream_ambient, i);
+        return sample_cosine(random, normal);
+    });
+    const auto reach = static_cast<float>(0.1 * diagonal_of(rays.rays));
+    for (Ray& ray : rays.rays) ray.tmax = reach;
+    return rays;
 }
 
 Rays shadow_rays(const PrimaryHits& primary, const glm::dvec3& to_light) {
@@ -167,13 +234,12 @@ Rays shadow_rays(const PrimaryHits& primary, const glm::dvec3& to_light) {
 }
 
 Rays interior_rays(const Curves& curves, size_t count, uint64_t seed) {
-    if (curves.curves.empty() || curves.strands.empty())
-        fail(ExitCode::bad_input, "--rays interior: the model has no strands for rays to start at");
-    Rays rays;
-    rays.rays.resize(count);
-    parallel_for(count, [&](size_t i) { rays.rays[i] = interior_ray(curves, seed, i); });
-    set_launch_shape(rays);
-    return rays;
+    return rays_of_strands(curves, count, "interior",
+                           [&](size_t i) { return interior_ray(curves, seed, i); });
+}
+
+Rays grazing_rays(const Curves& curves, size_t count, uint64_t seed) {
+    return rays_of_strands(curves, count, "grazing", [&](size_t i) { return grazing_ray(curves, seed, i); });
 }
 
 void shuffle(Rays& rays, uint64_t seed) {
@@ -210,6 +276,7 @@ LoadedRays rays_from_floats(std::string name, std::span<const float> values) {
 std::span<const RaySetInfo> ray_sets() { return table; }
 
 const RaySetInfo& ray_set_named(std::string_view name) {
+    if (name == "secondary") name = "diffuse";
     for (const RaySetInfo& set : table)
         if (set.name == name) return set;
     std::vector<std::string> names;
@@ -222,7 +289,9 @@ const RaySetInfo& ray_set_named(std::string_view name) {
 Rays make_rays(const RaySetInfo& set, const RaySetInput& input) {
     Rays rays = set.make(input);
     rays.name = set.name;
-    if (input.shuffled) shuffle(rays, input.seed);
+    if (!input.shuffled) return rays;
+    shuffle(rays, input.seed);
+    rays.name += " shuffled";
     return rays;
 }
 

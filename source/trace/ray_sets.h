@@ -36,11 +36,16 @@ struct PrimaryHits {
     std::span<const ReferenceHit> hits;
 };
 
-/// Secondary rays: one from each hit, in the order of the primary rays, cosine-distributed about the
-/// normal. The start is o + t d in double, moved along the normal by max(1 % of the radius, 4 ulp of
-/// its largest coordinate), so that rounding it to float leaves it outside. Hits of rays that start
-/// inside the surface, and hits that are not finite, have none.
-Rays secondary_rays(const PrimaryHits& primary, uint64_t seed = 1);
+/// Rays of one diffuse bounce: one from each hit, in the order of the primary rays, cosine-distributed about
+/// the normal. The start is o + t d in double, moved along the normal by max(1 % of the radius, 4 ulp of its
+/// largest coordinate), so that rounding it to float leaves it outside. Hits of rays that start inside the
+/// surface, and hits that are not finite, have none.
+Rays diffuse_rays(const PrimaryHits& primary, uint64_t seed = 1);
+
+/// Ambient-occlusion rays: from the same points, cosine-distributed about the normal (other numbers than the
+/// diffuse rays'), that end after a tenth of the diagonal of the box around all starts. Only whether they hit
+/// anything counts.
+Rays ambient_rays(const PrimaryHits& primary, uint64_t seed = 1);
 
 /// Shadow rays: from the same points towards a directional light (unit vector to the light). Hits that
 /// face away from it have none: the surface is dark there without a ray.
@@ -51,6 +56,11 @@ Rays shadow_rays(const PrimaryHits& primary, const glm::dvec3& to_light);
 /// cosine-distributed about the normal there. Incoherent by construction. Throws Error (bad_input)
 /// without strands.
 Rays interior_rays(const Curves& curves, size_t count, uint64_t seed = 1);
+
+/// Grazing rays: count rays that pass a random point of a random strand (chosen as for interior rays) at 0.95
+/// to 1.05 radii from its axis, along a random tangent of the surface there, and start 20 radii before it:
+/// where intersectors are least certain. Throws Error (bad_input) without strands.
+Rays grazing_rays(const Curves& curves, size_t count, uint64_t seed = 1);
 
 /// Puts the rays into a random order: the same coherent work, with coherence taken away.
 void shuffle(Rays& rays, uint64_t seed);
@@ -86,18 +96,20 @@ struct RaySetInput {
 /// One ray set by name. Adding a set is one line in the table of ray_sets.cpp.
 struct RaySetInfo {
     std::string_view name, help;
-    bool
-        needs_primary_hits;  // input.primary must hold the reference hits of primary_rays(camera, size, seed)
+    /// input.primary must hold the reference hits of primary_rays(camera, size, seed).
+    bool needs_primary_hits;
+    bool hit_or_miss_only;  // traced up to any hit
     Rays (*make)(const RaySetInput& input);
 };
 
 /// All named ray sets, in the order in which reports list them.
 std::span<const RaySetInfo> ray_sets();
 
-/// The set of a name; throws Error (usage) with the nearest name and the list.
+/// The set of a name ("secondary" is diffuse's old one); throws Error (usage) with the nearest name and the
+/// list.
 const RaySetInfo& ray_set_named(std::string_view name);
 
-/// Makes a set, shuffled if asked for, with its name.
+/// Makes a set with its name; shuffled if asked for: then its name says so, "primary shuffled".
 Rays make_rays(const RaySetInfo& set, const RaySetInput& input);
 
 }  // namespace strandlab

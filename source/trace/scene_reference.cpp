@@ -51,12 +51,17 @@ std::optional<Reference> unpacked(const std::vector<std::byte>& bytes, size_t co
     return reference;
 }
 
-/// Three scenes: as it is, and with larger and smaller radii.
-Reference trace_instances(const Scene& scene, std::span<const Surface> surfaces, const Curves& curves,
-                          std::span<const Ray> rays) {
+std::vector<SurfaceInstance> surface_instances(const Scene& scene) {
     std::vector<SurfaceInstance> instances;
     for (const SceneInstance& instance : scene.instances)
         instances.push_back({instance.model, instance.world_from_object, scene.first_curve(instance.model)});
+    return instances;
+}
+
+/// Three scenes: as it is, and with larger and smaller radii.
+Reference trace_instances(const Scene& scene, std::span<const Surface> surfaces, const Curves& curves,
+                          std::span<const Ray> rays) {
+    const std::vector<SurfaceInstance> instances = surface_instances(scene);
     const DecisiveMargin margin;
     const auto trace = [&](const OracleOptions& options) {
         return SceneOracle(surfaces, instances, options).trace(rays);
@@ -103,6 +108,21 @@ uint64_t hash(const Surface& surface) {
         sum.add(triangle.u.data(), sizeof triangle.u).add_number(triangle.curve);
     }
     return sum.value();
+}
+
+std::vector<ReferenceHit> make_scene_hits(const Scene& scene, std::span<const Surface> surfaces,
+                                          std::span<const Ray> rays) {
+    const std::string key = cache_key(scene, surfaces, rays) + " hits";
+    std::vector<ReferenceHit> hits(rays.size());
+    const size_t bytes = hits.size() * sizeof(ReferenceHit);
+    if (const auto stored = cache_read(key); stored && bytes > 0 && stored->size() == bytes) {
+        std::memcpy(hits.data(), stored->data(), bytes);
+        return hits;
+    }
+    hits = scene.is_plain() ? Oracle(surfaces[0]).trace(rays)
+                            : SceneOracle(surfaces, surface_instances(scene)).trace(rays);
+    cache_write(key, std::as_bytes(std::span(hits)));
+    return hits;
 }
 
 Reference make_scene_reference(const Scene& scene, std::span<const Surface> surfaces, const Curves& curves,

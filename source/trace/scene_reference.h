@@ -18,6 +18,10 @@ std::vector<Surface> common_surfaces(const Scene& scene, Caps caps);
 /// Content hash of a surface.
 uint64_t hash(const Surface& surface);
 
+/// Reference hits alone, where nobody asks which rays are decisive: what other ray sets start from.
+std::vector<ReferenceHit> make_scene_hits(const Scene& scene, std::span<const Surface> surfaces,
+                                          std::span<const Ray> rays);
+
 /// Reference hits and decisive rays for a scene of instances; curves: all_curves(scene), for the strands.
 /// Read from the cache where the same surfaces, instances and rays were traced before.
 Reference make_scene_reference(const Scene& scene, std::span<const Surface> surfaces, const Curves& curves,

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "trace/cpu_trace.h"
 
+#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -14,6 +15,14 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+class GpuTracedRays : public TracedRays {
+  public:
+    GpuTracedRays(const Device& device, const Rays& all, bool normals) : rays(device, all, normals) {}
+    Hits hits() const override { return rays.hits(); }
+
+    GpuRays rays;
+};
+
 class GpuTraced : public TracedScene {
   public:
     GpuTraced(const Device& device, const Primitive& primitive, std::vector<SceneModel> models,
@@ -23,9 +32,24 @@ class GpuTraced : public TracedScene {
     TraceResult trace(const Rays& rays, const TraceOptions& options) const override {
         return scene_.trace(rays, options);
     }
+    double run(TracedRays& rays, bool shadow) const override {
+        return scene_.run(static_cast<GpuTracedRays&>(rays).rays, shadow);
+    }
 
   private:
     GpuScene scene_;
+};
+
+class CpuTracedRays : public TracedRays {
+  public:
+    CpuTracedRays(const Rays& all, bool normals) : rays(all.rays) {
+        found.hits.resize(rays.size());
+        if (normals) found.normals.resize(rays.size());
+    }
+    Hits hits() const override { return found; }
+
+    std::vector<Ray> rays;
+    Hits found;
 };
 
 /// The kernels through our own hierarchy; instances one after the other (there is no hierarchy over them).
@@ -52,19 +76,25 @@ class CpuTraced : public TracedScene {
     const SceneCost& cost() const override { return cost_; }
 
     TraceResult trace(const Rays& rays, const TraceOptions& options) const override {
+        CpuTracedRays buffers(rays, normals_);
         TraceResult result;
-        result.hits.hits.resize(rays.rays.size());
-        if (normals_) result.hits.normals.resize(rays.rays.size());
-        for (uint32_t sample = 0; sample < options.samples; ++sample) {
-            const auto start = std::chrono::steady_clock::now();
-            parallel_for(rays.rays.size(), [&](size_t i) {
-                glm::vec3 normal(0);
-                result.hits.hits[i] = trace_one(rays.rays[i], options.shadow, normal);
-                if (normals_) result.hits.normals[i] = normal;
-            });
-            result.milliseconds.push_back(milliseconds_since(start));
-        }
+        for (uint32_t sample = 0; sample < options.samples; ++sample)
+            result.milliseconds.push_back(run(buffers, options.shadow));
+        result.hits = std::move(buffers.found);
         return result;
+    }
+
+    double run(TracedRays& traced, bool shadow) const override {
+        const std::vector<Ray>& rays = static_cast<CpuTracedRays&>(traced).rays;
+        Hits& found = static_cast<CpuTracedRays&>(traced).found;
+        assert(!normals_ || found.normals.size() == rays.size());
+        const auto start = std::chrono::steady_clock::now();
+        parallel_for(rays.size(), [&](size_t i) {
+            glm::vec3 normal(0);
+            found.hits[i] = trace_one(rays[i], shadow, normal);
+            if (normals_) found.normals[i] = normal;
+        });
+        return milliseconds_since(start);
     }
 
   private:
@@ -139,6 +169,11 @@ std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, st
     if (gpu_) return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, options);
     return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single,
                                        std::move(models), instances, options);
+}
+
+std::unique_ptr<TracedRays> TraceDevice::upload(const Rays& rays, bool normals) const {
+    if (gpu_) return std::make_unique<GpuTracedRays>(*gpu_, rays, normals);
+    return std::make_unique<CpuTracedRays>(rays, normals);
 }
 
 }  // namespace strandlab

@@ -9,12 +9,22 @@
 
 namespace strandlab {
 
+/// Rays where they are traced, with room for their hits: made once, traced through any number of scenes.
+class TracedRays {
+  public:
+    virtual ~TracedRays() = default;
+    /// What the last trace wrote; undefined before it.
+    virtual Hits hits() const = 0;
+};
+
 /// A scene made ready for one primitive.
 class TracedScene {
   public:
     virtual ~TracedScene() = default;
     virtual const SceneCost& cost() const = 0;
     virtual TraceResult trace(const Rays& rays, const TraceOptions& options) const = 0;
+    /// Traces rays of the same device's upload() once; the device time in milliseconds.
+    virtual double run(TracedRays& rays, bool shadow) const = 0;
 };
 
 /// A device by name: "cpu-float" and "cpu-double" are the C++ versions, everything else selects a Vulkan
@@ -36,6 +46,8 @@ class TraceDevice {
     std::unique_ptr<TracedScene> prepare(const Primitive& primitive, std::vector<SceneModel> models,
                                          std::span<const SceneInstance> instances,
                                          const SceneOptions& options) const;
+    /// normals: the scenes that they will be traced through were prepared with them.
+    std::unique_ptr<TracedRays> upload(const Rays& rays, bool normals) const;
 
   private:
     std::unique_ptr<Device> gpu_;  // none for the C++ versions

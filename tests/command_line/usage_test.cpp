@@ -64,7 +64,7 @@ TEST_F(UsageTest, NamesOptionAndValueThatCannotBe) {
         {"--basis", "cubic", {"--basis cubic", "centripetal, uniform, linear or bspline"}},
         {"--caps", "square", {"--caps square", "round, open or flat"}},
         {"--leaf-order", "best", {"--leaf-order best", "auto, file or median"}},
-        {"--rays", "primry", {"primry", "did you mean 'primary'?", "secondary"}},
+        {"--rays", "primry", {"primry", "did you mean 'primary'?", "diffuse"}},
         {"--resolution", "640", {"--resolution 640", "WIDTHxHEIGHT"}},
         {"--resolution", "0x5", {"--resolution 0x5"}},
         {"--resolution", "5x", {"--resolution 5x"}},

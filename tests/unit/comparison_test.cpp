@@ -275,5 +275,24 @@ TEST(RayError, AnglesAreAccurateWhereTheyAreSmall) {
     EXPECT_TRUE(std::isnan(angle_between({std::nan(""), 0, 0}, {1, 0, 0})));
 }
 
+TEST(Comparison, RaysThatStartInsideTheTracedSurfaceAreAClassOfTheirOwn) {
+    Case c;
+    for (int i = 0; i < 4; ++i) c.add();
+    c.hits[1] = {};  // a miss
+    c.hits[2] = {};
+    c.reference[2].starts_inside = true;  // inside both: the reference's class
+    const std::vector<uint8_t> inside_own{0, 1, 1, 0};
+    ComparisonInput input = c.input();
+    input.inside_own = inside_own;
+    const Comparison result = compare(input);
+    EXPECT_EQ(result.all.rays, 2u);
+    EXPECT_EQ(result.decisive.rays, 2u);
+    EXPECT_EQ(result.all.false_miss.count, 0u);
+    EXPECT_EQ(result.inside.rays, 1u);
+    EXPECT_EQ(result.inside_own.rays, 1u);
+    EXPECT_EQ(result.inside_own.false_miss.count, 1u);
+    EXPECT_EQ(result.rays(), 4u);
+}
+
 }  // namespace
 }  // namespace strandlab::testing

@@ -120,6 +120,24 @@ TEST(File, CompletesALastLineThatWasCutOff) {
               std::string::npos);
 }
 
+TEST(File, CutsOffATornLastLine) {
+    const TestFolder folder;
+    const std::string path = folder / "rows", long_line(10'000, 'x');
+    const auto repaired = [&](const std::string& bytes) {
+        write_file(path, bytes);
+        const bool dropped = drop_torn_line(path, [](std::string_view line) { return line == "whole"; });
+        return std::pair(dropped, read_file(path));
+    };
+    EXPECT_EQ(repaired(""), std::pair(false, std::string()));
+    EXPECT_EQ(repaired("a\nb\n"), std::pair(false, std::string("a\nb\n")));
+    EXPECT_EQ(repaired("a\nwhole"), std::pair(false, std::string("a\nwhole")));
+    EXPECT_EQ(repaired("a\nwhol"), std::pair(true, std::string("a\n")));
+    EXPECT_EQ(repaired("torn"), std::pair(true, std::string()));
+    EXPECT_EQ(repaired(long_line + "\n" + long_line), std::pair(true, long_line + "\n"));
+    EXPECT_FALSE(drop_torn_line(folder / "none", [](std::string_view) { return false; }));
+    EXPECT_FALSE(drop_torn_line("/dev/null", [](std::string_view) { return false; }));
+}
+
 TEST(ByteSource, ReadsPipesAndRefusesToReadBeyondTheEnd) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);

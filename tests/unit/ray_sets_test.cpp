@@ -101,10 +101,10 @@ TEST(PrimaryRays, PictureMustHoldSomethingAndFit) {
         EXPECT_THROW(primary_rays(camera, size), Error);
 }
 
-TEST(SecondaryRays, OnePerHitOutsideTheSurface) {
+TEST(DiffuseRays, OnePerHitOutsideTheSurface) {
     for (const double radius : {1.0, 1e-3, 2e-5}) {
         const SphereScene scene(radius, {96, 64, 1}, {0, 0, 50 * radius});
-        const Rays rays = secondary_rays(scene.primary(), 3);
+        const Rays rays = diffuse_rays(scene.primary(), 3);
         ASSERT_GT(rays.rays.size(), 100u);
         EXPECT_EQ(rays.rays.size(), scene.hit_count());
         EXPECT_GE(size_t(rays.width) * rays.height, rays.rays.size());
@@ -120,9 +120,9 @@ TEST(SecondaryRays, OnePerHitOutsideTheSurface) {
     }
 }
 
-TEST(SecondaryRays, CosineDistributedAboutTheNormal) {
+TEST(DiffuseRays, CosineDistributedAboutTheNormal) {
     const SphereScene scene(1.0, {400, 400, 1});
-    const Rays rays = secondary_rays(scene.primary());
+    const Rays rays = diffuse_rays(scene.primary());
     double cosine = 0, square = 0;
     glm::dvec3 across(0);
     size_t i = 0;
@@ -141,9 +141,9 @@ TEST(SecondaryRays, CosineDistributedAboutTheNormal) {
     EXPECT_LT(glm::length(across / n), 5 / std::sqrt(n));
 }
 
-TEST(SecondaryRays, HitsWithoutAUsablePlaceHaveNone) {
+TEST(DiffuseRays, HitsWithoutAUsablePlaceHaveNone) {
     SphereScene scene(1.0, {8, 8, 1});
-    const size_t before = secondary_rays(scene.primary()).rays.size();
+    const size_t before = diffuse_rays(scene.primary()).rays.size();
     size_t changed = 0;
     for (ReferenceHit& hit : scene.hits) {
         if (!hit.is_hit() || changed == 4) continue;
@@ -154,7 +154,24 @@ TEST(SecondaryRays, HitsWithoutAUsablePlaceHaveNone) {
         ++changed;
     }
     ASSERT_EQ(changed, 4u);
-    EXPECT_EQ(secondary_rays(scene.primary()).rays.size(), before - 4);
+    EXPECT_EQ(diffuse_rays(scene.primary()).rays.size(), before - 4);
+}
+
+TEST(AmbientRays, AreShortAndStartWhereDiffuseOnesDo) {
+    const SphereScene scene(1.0);
+    const Rays ambient = ambient_rays(scene.primary(), 3), diffuse = diffuse_rays(scene.primary(), 3);
+    ASSERT_EQ(ambient.rays.size(), diffuse.rays.size());
+    // The box around the half of the sphere that is seen: at most 2 x 2 x 1, and not much less.
+    const float reach = ambient.rays.front().tmax;
+    EXPECT_GT(reach, 0.2f);
+    EXPECT_LT(reach, 0.31f);
+    for (size_t i = 0; i < ambient.rays.size(); ++i) {
+        EXPECT_EQ(ambient.rays[i].origin, diffuse.rays[i].origin);
+        EXPECT_EQ(ambient.rays[i].tmax, reach);
+        EXPECT_TRUE(is_valid(ambient.rays[i]));
+    }
+    EXPECT_NE(ambient.rays.front().direction, diffuse.rays.front().direction);
+    EXPECT_TRUE(ambient_rays({}).rays.empty());
 }
 
 TEST(ShadowRays, GoToTheLightFromWhatFacesIt) {
@@ -201,12 +218,37 @@ TEST(InteriorRays, StartBesideAStrand) {
     EXPECT_THROW(interior_rays(Curves{}, 10), Error);
 }
 
+TEST(GrazingRays, PassAStrandAboutItsRadiusAway) {
+    const Curves curves = bent_strands();
+    const Rays rays = grazing_rays(curves, 500);
+    ASSERT_EQ(rays.rays.size(), 500u);
+    size_t inner = 0, near = 0;
+    for (const Ray& ray : rays.rays) {
+        EXPECT_TRUE(is_valid(ray));
+        // 20 radii on, the ray is where it grazes.
+        const glm::dvec3 at = glm::dvec3(ray.origin) + 0.2 * glm::dvec3(ray.direction);
+        double nearest = 1e300;
+        for (const Curve& curve : curves.curves)
+            for (int k = 0; k <= 400; ++k)
+                nearest =
+                    std::min(nearest, glm::distance(glm::dvec3(point_at(to_double(curve), k / 400.0)), at));
+        EXPECT_LT(nearest, 0.0105 + 2e-4);
+        near += nearest > 0.0095 - 1e-6;
+        inner += nearest < 0.01;
+    }
+    EXPECT_GT(near, 480u);  // but where another strand is nearer
+    EXPECT_GT(inner, 100u);
+    EXPECT_LT(inner, 400u);
+    EXPECT_THROW(grazing_rays(Curves{}, 10), Error);
+}
+
 TEST(InteriorRays, CurvesThatAreAPointStillGiveRays) {
     Curves curves;
     curves.curves.push_back(
         {glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0), glm::vec4(1, 2, 3, 0)});
     curves.strands = {{0, 0}, {0, 1}};
     for (const Ray& ray : interior_rays(curves, 50).rays) EXPECT_TRUE(is_valid(ray));
+    for (const Ray& ray : grazing_rays(curves, 50).rays) EXPECT_TRUE(is_valid(ray));
 }
 
 TEST(RaySets, TheSameForAnyNumberOfThreads) {
@@ -225,6 +267,7 @@ TEST(RaySets, TheSameForAnyNumberOfThreads) {
         EXPECT_EQ(make_rays(set, input).name, set.name);
         input.shuffled = true;
         EXPECT_NE(hash(make_rays(set, input)), many) << set.name;
+        EXPECT_EQ(make_rays(set, input).name, std::string(set.name) + " shuffled");
         RaySetInput other = input;
         other.seed = 10;
         EXPECT_NE(hash(make_rays(set, other)), hash(make_rays(set, input))) << set.name;

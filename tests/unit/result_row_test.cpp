@@ -81,22 +81,72 @@ TEST(ResultRow, KeysTellCasesApart) {
 TEST(ResultJson, KeysComeInAFixedOrder) {
     const std::string line = to_line(to_json(measured_row()));
     EXPECT_EQ(line.find('\n'), std::string::npos);
-    EXPECT_TRUE(line.starts_with("{\"schema\":1,\"command\":\"bench\",\"key\":")) << line;
+    EXPECT_TRUE(line.starts_with("{\"schema\":2,\"command\":\"bench\",\"key\":")) << line;
     EXPECT_NE(
         line.find("\"model\":{\"name\":\"tuft, \\\"small\\\"\",\"hash\":\"0000000000000abc\",\"curves\":1000,"
-                  "\"strands\":100,\"instances\":2}"),
+                  "\"strands\":100,\"instances\":2,\"spec\":\"\"}"),
         std::string::npos)
         << line;
     EXPECT_NE(line.find("\"samples_ms\":[10.0,12.0,11.0]"), std::string::npos) << line;
     EXPECT_NE(line.find("\"caps\":\"round\",\"wanted_caps\":\"flat\",\"caps_fell_back\":true"),
               std::string::npos);
-    EXPECT_NE(line.find("\"class\":\"software\",\"validation_layers\":true"), std::string::npos);
+    EXPECT_NE(line.find("\"class\":\"software\",\"ray_tracing_hardware\":false,\"memory_bytes\":0,"
+                        "\"validation_layers\":true"),
+              std::string::npos)
+        << line;
     EXPECT_NE(
         line.find(
             "\"distance\":{\"count\":90,\"p50\":0.5,\"p95\":1.0,\"p99\":2.0,\"p999\":3.0,\"max\":\"inf\","
             "\"worst_ray\":42}"),
         std::string::npos)
         << line;
+}
+
+TEST(ResultRow, SettingsThatChangeACaseAreInItsKey) {
+    ResultRow row = measured_row();
+    const std::string plain = row.key();
+    row.settings.repeat = 99;
+    EXPECT_EQ(row.key(), plain);
+    row.settings.compaction = false;
+    row.settings.leaf_order = "file";
+    EXPECT_EQ(row.key(), plain + " order=file compaction=0");
+}
+
+TEST(ResultRow, SaysWhatToDoAboutAWideSpread) {
+    ResultRow row = measured_row();
+    row.trace_ms = {10, 10.1, 10.2};
+    EXPECT_EQ(row.warning(), "");
+    row.trace_ms = {10, 20, 30};
+    EXPECT_DOUBLE_EQ(*row.spread(), 0.5);
+    EXPECT_NE(row.warning().find("+-50 %"), std::string::npos) << row.warning();
+    EXPECT_NE(row.warning().find("--repeat"), std::string::npos) << row.warning();
+    row.trace_ms = {10};
+    EXPECT_FALSE(row.spread());
+    EXPECT_EQ(row.warning(), "");
+}
+
+TEST(ResultJson, HoldsEverySampleAndTheSweep) {
+    ResultRow row = measured_row();
+    auto axes = std::make_shared<SweepAxes>();
+    *axes = {{"a.hair"}, {"640x360"}, {"primary", "diffuse"}, {"lss", "prhi"}};
+    row.sweep = {axes, 0xABCD, 3, {2, 4}};
+    row.wall_ms = {11, 13, 12};
+    row.positions = {1, 0, 1};
+    row.group = "g";
+    row.ratio = {"dots", {0.5, 0.75, 0.5}};
+    const Json json = to_json(row);
+    EXPECT_EQ(json["sweep"]["id"], "000000000000abcd");
+    EXPECT_EQ(json["sweep"]["case"], 3);
+    EXPECT_EQ(json["sweep"]["cases"], 4);
+    EXPECT_EQ(json["sweep"]["shard"], 2);
+    EXPECT_EQ(json["sweep"]["primitives"], Json({"lss", "prhi"}));
+    EXPECT_EQ(json["time"]["wall_ms"]["median"], 12.0);
+    EXPECT_EQ(json["time"]["wall_samples_ms"], Json({11.0, 13.0, 12.0}));
+    EXPECT_EQ(json["time"]["positions"], Json({1, 0, 1}));
+    EXPECT_EQ(json["time"]["ratio"]["baseline"], "dots");
+    EXPECT_EQ(json["time"]["ratio"]["median"], 0.5);
+    EXPECT_EQ(json["memory"]["buffer_bytes"], 16000);
+    EXPECT_EQ(json["context"]["shaders"].get<std::string>().size(), 16u);
 }
 
 TEST(ResultJson, NumbersThatAreNotFiniteAreWords) {
@@ -186,6 +236,28 @@ TEST_F(ResultFiles, GrowRowByRow) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_EQ(csv.find("schema,"), 0u);
     EXPECT_EQ(csv.rfind("schema,"), 0u) << "one header";
+}
+
+TEST_F(ResultFiles, LoseATornLastLineAndNothingElse) {
+    const std::string whole = to_line(to_json(measured_row()));
+    ResultRow next = measured_row();
+    next.seed = 8;
+    for (const size_t cut : {size_t(1), size_t(5000), whole.size() - 1}) {
+        std::ofstream(path("t.jsonl")) << whole << "\n" << whole.substr(0, cut);
+        std::ofstream(path("t.csv")) << csv_line(csv_columns()) << "\n2,bench";
+        const ResultWriter writer(path("t.jsonl"), path("t.csv"), true);
+        ASSERT_EQ(writer.rows().size(), 1u);
+        writer.add(next);
+        const std::vector<Json> rows = read_json_lines(path("t.jsonl"));
+        ASSERT_EQ(rows.size(), 2u);
+        EXPECT_EQ(rows[1]["seed"], 8);
+        const std::string csv = text_of(path("t.csv"));
+        EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    }
+    // Whole, but for its newline.
+    std::ofstream(path("t.jsonl")) << whole << "\n" << whole;
+    EXPECT_EQ(ResultWriter(path("t.jsonl"), "", true).rows().size(), 2u);
+    EXPECT_TRUE(ResultWriter(path("absent"), "", true).rows().empty());
 }
 
 TEST_F(ResultFiles, OnlyWhatWasAskedForIsWritten) {

@@ -1,0 +1,147 @@
+#include "commands/bench_options.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "commands/bench_presets.h"
+#include "commands/usage_error.h"
+
+#include <cctype>
+
+namespace strandlab {
+namespace {
+
+/// A text as a shell reads it back.
+std::string quoted(const std::string& text) {
+    constexpr std::string_view plain = "_-+=:,./@%^";
+    bool is_plain = !text.empty();
+    for (const char c : text)
+        is_plain &= std::isalnum(static_cast<unsigned char>(c)) || plain.find(c) != std::string_view::npos;
+    if (is_plain) return text;
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+    return result + "'";
+}
+
+/// A command line that grows option by option.
+class CommandText {
+  public:
+    explicit CommandText(std::string command) : text_(std::move(command)) {}
+    void add(const std::string& word) { text_ += " " + quoted(word); }
+    void add(const char* option, const std::string& value) {
+        text_ += std::string(" ") + option;
+        add(value);
+    }
+    void flag(const char* option, bool is_set) {
+        if (is_set) text_ += std::string(" ") + option;
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+}  // namespace
+
+void BenchOptions::add_to(CLI::App& app) {
+    app.add_option("--preset", preset, preset_help())->capture_default_str();
+    models.add_to(app, false);
+    primitives.add_to(app, true);
+    rays.add_to(app, "by preset");
+    error_rays_ = app.get_option("--error-rays");
+    device.add_to(app);
+    app.add_option("--repeat", repeat, "timed traces of each case (default: by preset)")
+        ->check(whole_number(1, 10000));
+    app.add_option("--baseline-primitive", baseline_primitive,
+                   "times as ratios to this one, round by round (default: the first)");
+    app.add_option("--interleave", interleave,
+                   "primitives whose samples alternate (0: as many as fit the device together)")
+        ->capture_default_str()
+        ->check(whole_number(0, 10000));
+    app.add_option("--max-error", max_error,
+                   "leave out cases with a model error p99 above this many radii, or over 1 % wrong rays");
+    app.add_option("--max-memory", max_memory,
+                   "leave out cases that keep more bytes than this on the device");
+    app.add_option("--time-budget", time_budget, "seconds after which no more cases begin; --resume goes on");
+    app.add_option("--shard", shard_text, "I/N: only the I-th of N parts of the sweep")
+        ->capture_default_str();
+    app.add_option("--json", json, "append rows to this file, one JSON object a line");
+    app.add_option("--csv", csv, "append rows to this file");
+    app.add_flag("--resume", resume, "leave out the cases that the --json file already holds");
+    app.add_option("--baseline", baseline,
+                   "compare with the rows of this file; exit 1 when slower or more wrong");
+    app.add_option("--save-rays", save_rays,
+                   "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
+    app.add_option("--images", images, "folder for a picture of every case with primary rays");
+    app.add_option("--leaf-order", leaf_order, "order of leaves in builds: auto, file, median")
+        ->capture_default_str();
+    app.add_flag("--no-compaction", no_compaction, "keep acceleration structures as built");
+    app.add_flag("--no-normals", no_normals, "write t, u and curve only: 16 bytes a ray")
+        ->excludes("--images");
+    app.add_flag("--no-embree", no_embree, "no row for Embree's round curves");
+}
+
+bool BenchOptions::has_error_rays() const { return error_rays_ != nullptr && error_rays_->count() > 0; }
+
+void BenchOptions::check() const {
+    check_preset(preset);
+    rays.check();
+    primitives.choices();
+    models.curve_options();
+    shard();
+    order();
+    if (!rays.resolution.empty()) resolutions();
+    const std::pair<const char*, double> limits[] = {
+        {"--max-error", max_error}, {"--max-memory", max_memory}, {"--time-budget", time_budget}};
+    for (const auto& [option, value] : limits)
+        if (!(value >= 0)) fail(ExitCode::usage, "{} {}: must be a number from 0 (no limit)", option, value);
+    if (resume && json.empty()) fail(ExitCode::usage, "--resume: name the file to go on with by --json");
+    if (max_error > 0 && has_error_rays() && rays.error_rays == 0)
+        fail(ExitCode::usage, "--max-error {}: no errors are measured with --error-rays 0", max_error);
+}
+
+SceneOptions::Order BenchOptions::order() const {
+    if (leaf_order == "auto") return SceneOptions::Order::automatic;
+    if (leaf_order == "file") return SceneOptions::Order::as_built;
+    if (leaf_order == "median") return SceneOptions::Order::median;
+    fail(ExitCode::usage, "--leaf-order {}: must be auto, file or median", leaf_order);
+}
+
+std::vector<Resolution> BenchOptions::resolutions() const {
+    std::vector<Resolution> all;
+    for (const std::string_view text : split(rays.resolution, ','))
+        all.push_back(parse_resolution(std::string(text)));
+    return all;
+}
+
+std::string to_string(const Resolution& resolution) {
+    return fmt::format("{}x{}", resolution.width, resolution.height);
+}
+
+std::string reproducing_command(const BenchOptions& options, const ResultRow& row) {
+    CommandText command("strandlab bench");
+    command.add(row.model.spec);
+    for (const auto& [option, value] : options.models.given()) command.add(option.c_str(), value);
+    if (row.primitive.name != "embree") command.add("--primitive", row.primitive.label);
+    if (row.ratio && row.ratio->baseline != row.primitive.label) {
+        command.add("--primitive", row.ratio->baseline);
+        command.add("--baseline-primitive", row.ratio->baseline);
+    }
+    if (!options.primitives.caps.empty()) command.add("--caps", options.primitives.caps);
+    std::string set = row.rays.kind == "file" ? row.rays.name : row.rays.kind;
+    if (row.rays.kind == "file" && row.rays.shuffled)
+        set.resize(set.size() - std::string_view(" shuffled").size());
+    command.add("--rays", set + (row.rays.shuffled ? ":shuffled" : ""));
+    command.add("--resolution", row.rays.resolution);
+    if (!options.rays.camera.empty()) command.add("--camera", options.rays.camera);
+    command.add("--seed", std::to_string(row.seed));
+    command.add("--error-rays", std::to_string(row.settings.error_rays));
+    command.add("--repeat", std::to_string(row.settings.repeat));
+    if (!options.device.device.empty()) command.add("--device", options.device.device);
+    if (options.leaf_order != "auto") command.add("--leaf-order", options.leaf_order);
+    command.flag("--no-compaction", options.no_compaction);
+    command.flag("--no-normals", options.no_normals);
+    command.flag("--no-embree", row.primitive.name != "embree");
+    return command.text();
+}
+
+}  // namespace strandlab

@@ -1,0 +1,360 @@
+#include "commands/bench_run.h"
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "commands/bench_presets.h"
+#include "commands/embree_case.h"
+#include "commands/hit_files.h"
+#include "measure/pareto.h"
+#include "report/images.h"
+#include "report/result_json.h"
+#include "report/result_table.h"
+#include "report/shading.h"
+#include "trace/embree_reference.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace strandlab {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+size_t index_of(const std::vector<PrimitiveChoice>& choices, const PrimitiveChoice& choice) {
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const PrimitiveChoice& other) {
+        return other.label() == choice.label();
+    });
+    return static_cast<size_t>(found - choices.begin());
+}
+
+/// The baseline primitive's place among the choices: the first without a name.
+size_t baseline_index(const std::vector<PrimitiveChoice>& choices, const std::string& name) {
+    if (name.empty()) return 0;
+    const size_t index = index_of(choices, parse_primitive(name));
+    if (index == choices.size())
+        fail(ExitCode::usage, "--baseline-primitive {}: is none of the sweep's; add --primitive {}", name,
+             name);
+    return index;
+}
+
+RayFacts ray_facts(const MeasuredRays& rays, uint64_t seed, const std::string& resolution) {
+    RayFacts facts = facts_of(rays.rays, rays.is_picture ? 1 : 0);
+    facts.kind = rays.kind;
+    facts.shuffled = rays.shuffled;
+    facts.seed = seed;
+    facts.camera = rays.camera;
+    facts.resolution = resolution;
+    return facts;
+}
+
+std::optional<TimeRatio> ratio_to(const TimeSamples& baseline, const TimeSamples& samples,
+                                  const PrimitiveChoice& choice) {
+    TimeRatio ratio{choice.label(), {}};
+    for (size_t i = 0; i < samples.device_ms.size(); ++i)
+        ratio.samples.push_back(samples.device_ms[i] / baseline.device_ms[i]);
+    return ratio;
+}
+
+void prepare_image_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(ExitCode::bad_input, "--images {}: {}", folder, error.message());
+    check_image_path((std::filesystem::path(folder) / "x.png").string());
+}
+
+/// The path as a row holds it: from the folder of the rows' file, so that both can be moved together.
+std::string path_in_row(const std::string& path, const std::string& json) {
+    namespace fs = std::filesystem;
+    const fs::path folder = json.empty() ? fs::current_path() : fs::absolute(json).parent_path();
+    return fs::absolute(path).lexically_proximate(folder).string();
+}
+
+}  // namespace
+
+/// A case that has no row yet.
+struct BenchRun::Case {
+    size_t set, primitive;
+};
+
+struct BenchRun::Block {
+    size_t model, resolution;
+    const Scene& scene;
+    const Curves& curves;
+    ModelFacts facts;
+    RaySets rays;
+    std::vector<RayFacts> ray_facts;  // of each set; of those not wanted empty
+    CaseInput input;
+    std::vector<Case> open;            // cases to measure
+    std::map<size_t, Json> rows = {};  // by case number
+
+    bool is_open(size_t set, size_t primitive) const {
+        return std::any_of(open.begin(), open.end(),
+                           [&](const Case& one) { return one.set == set && one.primitive == primitive; });
+    }
+};
+
+BenchRun::BenchRun(BenchOptions& options)
+    : options_(options),
+      device_({options.device.device, options.device.validation}),
+      caps_(options.primitives.scene_caps()),
+      curve_options_(options.models.curve_options()),
+      shard_(options.shard()),
+      context_(current_context()),
+      start_(std::chrono::steady_clock::now()) {
+    apply_preset(options_, device_.info());
+    options_.rays.check();
+    choices_ = options_.primitives.choices();
+    resolutions_ = options_.resolutions();
+    with_embree_ = embree_available() && !options_.no_embree;
+    baseline_ = baseline_index(choices_, options_.baseline_primitive);
+    SweepAxes axes{options_.models.models, {}, options_.rays.set_names(), {}};
+    for (const Resolution& resolution : resolutions_) axes.resolutions.push_back(to_string(resolution));
+    for (const PrimitiveChoice& choice : choices_) axes.primitives.push_back(choice.label());
+    if (with_embree_) axes.primitives.emplace_back(embree_label);
+    sweep_id_ = axes.hash(fmt::format("seed={} caps={}", options_.rays.seed, name_of(caps_)));
+    axes_ = std::make_shared<SweepAxes>(std::move(axes));
+
+    writer_ = std::make_unique<ResultWriter>(options_.json, options_.csv, options_.resume);
+    for (const Json& row : writer_->rows())
+        if (const auto key = row.find("key"); key != row.end() && key->is_string()) finished_[*key] = row;
+    if (!options_.images.empty()) prepare_image_folder(options_.images);
+    fmt::print("{}\n", device_line());
+}
+
+std::string BenchRun::device_line() const {
+    const DeviceFacts facts = facts_of(device_.info(), device_.has_validation());
+    std::string sizes;
+    for (const std::string& size : axes_->resolutions) sizes += (sizes.empty() ? "" : ", ") + size;
+    const std::string shard =
+        shard_.count == 1 ? "" : fmt::format(", part {} of {}", shard_.index, shard_.count);
+    return fmt::format("{}, {}, {} traversal, {}, {} samples, {} cases{}, validation layers {}", facts.name,
+                       facts.driver, facts.device_class(), sizes, *options_.repeat, axes_->cases(), shard,
+                       facts.validation_layers ? "on: times are not comparable" : "off");
+}
+
+void BenchRun::run() {
+    for (size_t model = 0; model < axes_->models.size() && !is_over_budget(); ++model) run_model(model);
+    if (left_out_ > 0) inform("{} cases lie beyond --max-error or --max-memory and have no row", left_out_);
+    if (is_over_budget())
+        warn("--time-budget {}: the sweep may not be complete; --resume goes on", options_.time_budget);
+}
+
+bool BenchRun::is_over_budget() const {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    return options_.time_budget > 0 && spent.count() > options_.time_budget;
+}
+
+void BenchRun::run_model(size_t model) {
+    const size_t first = axes_->number(model, 0, 0, 0), end = axes_->number(model + 1, 0, 0, 0);
+    bool wanted = false;
+    for (size_t number = first; number < end; ++number) wanted |= is_wanted(number);
+    if (!wanted) return;
+    const Scene scene = load_scene(axes_->models[model], curve_options_);
+    if (scene.curve_count() == 0) return;
+    const Curves curves = all_curves(scene);
+    for (size_t i = 0; i < resolutions_.size() && !is_over_budget(); ++i) run_block(model, i, scene, curves);
+}
+
+void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, const Curves& curves) {
+    std::vector<bool> wanted(axes_->rays.size(), false);
+    for (size_t set = 0; set < wanted.size(); ++set)
+        for (size_t primitive = 0; primitive < axes_->primitives.size(); ++primitive)
+            if (is_wanted(axes_->number(model, resolution, set, primitive))) wanted[set] = true;
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
+
+    Block block{model,
+                resolution,
+                scene,
+                curves,
+                facts_of(scene.name, curves, scene.instances.size()),
+                RaySets(scene, curves, options_.rays, resolutions_[resolution], caps_, wanted),
+                {},
+                {device_, scene, curves, *options_.repeat, warm_up_of(device_.info()), {}},
+                {}};
+    block.facts.spec = axes_->models[model];
+    for (size_t set = 0; set < wanted.size(); ++set)
+        block.ray_facts.push_back(wanted[set] ? ray_facts(block.rays.sets()[set], options_.rays.seed,
+                                                          axes_->resolutions[resolution])
+                                              : RayFacts{});
+    block.input.options.order = options_.order();
+    block.input.options.compact = !options_.no_compaction;
+    block.input.options.normals = !options_.no_normals;
+    block.input.options.ray_extent = object_extent(scene, block.rays.extent());
+    if (!options_.save_rays.empty())
+        for (size_t set = 0; set < wanted.size(); ++set)
+            if (wanted[set]) write_rays(options_.save_rays, scene.name, block.rays.sets()[set].rays);
+    block.open = open_cases(block);
+
+    std::vector<size_t> waiting;
+    for (size_t primitive = 0; primitive < choices_.size(); ++primitive)
+        if (std::any_of(block.open.begin(), block.open.end(),
+                        [&](const Case& one) { return one.primitive == primitive; }))
+            waiting.push_back(primitive);
+    SceneGroups groups(block.input, choices_, baseline_, waiting,
+                       group_limits(device_.info(), options_.interleave));
+    while (!is_over_budget()) {
+        const auto group = groups.next();
+        if (group.empty()) break;
+        for (size_t set = 0; set < wanted.size() && !is_over_budget(); ++set)
+            if (wanted[set]) measure_set(block, set, group, groups.baseline());
+    }
+    measure_embree(block);
+
+    std::vector<Json> rows;
+    for (auto& [number, row] : block.rows) rows.push_back(std::move(row));
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    if (!rows.empty()) fmt::print("\n{}", result_table(rows));
+    std::fflush(stdout);
+}
+
+std::vector<BenchRun::Case> BenchRun::open_cases(Block& block) {
+    std::vector<Case> open;
+    for (size_t set = 0; set < axes_->rays.size(); ++set)
+        for (size_t primitive = 0; primitive < axes_->primitives.size(); ++primitive) {
+            const size_t number = axes_->number(block.model, block.resolution, set, primitive);
+            if (!is_wanted(number)) continue;
+            const auto row = finished_.find(base_row(block, set, primitive).key());
+            if (row == finished_.end())
+                open.push_back({set, primitive});
+            else
+                block.rows[number] = row->second;
+        }
+    return open;
+}
+
+ResultRow BenchRun::base_row(const Block& block, size_t set, size_t primitive) const {
+    ResultRow row;
+    row.sweep = {axes_, sweep_id_, axes_->number(block.model, block.resolution, set, primitive), shard_};
+    row.model = block.facts;
+    row.rays = block.ray_facts[set];
+    row.device = facts_of(device_.info(), device_.has_validation());
+    row.settings = {*options_.repeat,
+                    warm_up_of(device_.info()),
+                    options_.rays.error_rays,
+                    options_.leaf_order,
+                    !options_.no_compaction,
+                    !options_.no_normals,
+                    caps_};
+    row.seed = options_.rays.seed;
+    row.context = context_;
+    if (primitive == choices_.size()) return with_embree_facts(std::move(row));
+    row.primitive = facts_of(choices_[primitive], caps_);
+    return row;
+}
+
+void BenchRun::measure_set(Block& block, size_t set, const std::vector<const PreparedCase*>& group,
+                           const PreparedCase* baseline) {
+    const bool has_any = std::any_of(group.begin(), group.end(), [&](const PreparedCase* prepared) {
+        return block.is_open(set, index_of(choices_, prepared->choice));
+    });
+    if (!has_any) return;
+    const MeasuredRays& rays = block.rays.sets()[set];
+    const std::unique_ptr<TracedRays> buffers = device_.upload(rays.rays, block.input.options.normals);
+    std::vector<ResultRow> rows;  // of traced[i], but for a baseline that is there for its time alone
+    std::vector<const PreparedCase*> traced;
+    for (const PreparedCase* prepared : group) {
+        const size_t primitive = index_of(choices_, prepared->choice);
+        if (!block.is_open(set, primitive)) continue;
+        prepared->traced->run(*buffers, rays.shadow);
+        ResultRow row = base_row(block, set, primitive);
+        row.geometry_ms = prepared->geometry_ms;
+        row.cost = prepared->traced->cost();
+        {
+            const Hits hits = buffers->hits();
+            CaseErrors errors = errors_of(block.input, prepared->choice, rays, selected(hits, rays.sample));
+            row.intersector_error = std::move(errors.own);
+            row.model_error = std::move(errors.model);
+            if (!is_within_limits(row)) continue;
+            if (!options_.images.empty() && rays.is_picture)
+                row.picture = write_picture(block, *prepared, rays, hits);
+        }
+        rows.push_back(std::move(row));
+        traced.push_back(prepared);
+    }
+    if (traced.empty()) return;
+    const auto place = std::find(traced.begin(), traced.end(), baseline);
+    const auto baseline_place = static_cast<size_t>(place - traced.begin());
+    if (place == traced.end() && baseline != nullptr) {
+        baseline->traced->run(*buffers, rays.shadow);  // drivers compile at the first dispatch
+        traced.push_back(baseline);
+    }
+
+    const std::vector<TimeSamples> samples = time_all(block, set, traced, *buffers);
+    const std::string name = fmt::format("{} case {}", context_.time, rows.front().sweep.number);
+    for (size_t i = 0; i < rows.size(); ++i) {
+        ResultRow& row = rows[i];
+        row.trace_ms = samples[i].device_ms;
+        row.wall_ms = samples[i].wall_ms;
+        row.positions = samples[i].positions;
+        row.group = name;
+        if (baseline != nullptr) row.ratio = ratio_to(samples[baseline_place], samples[i], baseline->choice);
+        add(block, std::move(row));
+    }
+}
+
+std::vector<TimeSamples> BenchRun::time_all(const Block& block, size_t set,
+                                            const std::vector<const PreparedCase*>& traced,
+                                            TracedRays& rays) const {
+    const bool shadow = block.rays.sets()[set].shadow;
+    std::vector<std::function<double()>> traces;
+    for (const PreparedCase* prepared : traced)
+        traces.emplace_back([&rays, prepared, shadow] { return prepared->traced->run(rays, shadow); });
+    constexpr uint32_t fewest_rounds = 3;  // even when time is up: below that there is no spread
+    return interleave(
+        traces, {.rounds = block.input.samples,
+                 .warm_up_ms = block.input.warm_up_ms,
+                 .seed = Hash().add_number(options_.rays.seed).add_number(block.ray_facts[set].hash).value(),
+                 .stop = [&](uint32_t done) { return done >= fewest_rounds && is_over_budget(); }});
+}
+
+void BenchRun::measure_embree(Block& block) {
+    if (!with_embree_) return;
+    for (const Case& one : block.open) {
+        if (one.primitive != choices_.size() || is_over_budget()) continue;
+        if (!block.scene.is_plain()) {
+            inform("{}: no row for Embree, which is given single models only", block.scene.name);
+            return;
+        }
+        ResultRow row =
+            embree_row(block.input, block.rays.sets()[one.set], base_row(block, one.set, one.primitive));
+        if (is_within_limits(row)) add(block, std::move(row));
+    }
+}
+
+bool BenchRun::is_within_limits(const ResultRow& row) {
+    const bool is_wrong =
+        options_.max_error > 0 && row.model_error && !(ranking_error(*row.model_error) <= options_.max_error);
+    const bool is_large = options_.max_memory > 0 && row.resident_bytes() &&
+                          double(*row.resident_bytes()) > options_.max_memory;
+    if (!is_wrong && !is_large) return true;
+    inform("{}, {} rays: {} is left out, beyond {}", row.model.name, row.rays.name, row.primitive.label,
+           is_wrong ? "--max-error" : "--max-memory");
+    ++left_out_;
+    return false;
+}
+
+void BenchRun::add(Block& block, ResultRow row) {
+    row.reproduce = reproducing_command(options_, row);
+    block.rows[row.sweep.number] = writer_->add(row);
+}
+
+std::string BenchRun::write_picture(const Block& block, const PreparedCase& prepared,
+                                    const MeasuredRays& rays, const Hits& hits) const {
+    std::string name = block.scene.name + "_" + prepared.choice.label();
+    if (resolutions_.size() > 1) name += "_" + axes_->resolutions[block.resolution];
+    for (char& c : name)
+        if (c == ':' || c == ',' || c == '=' || c == '/') c = '_';
+    const std::string path = (std::filesystem::path(options_.images) / (name + ".png")).string();
+    ShadingOptions shading;
+    shading.width = resolutions_[block.resolution].width;
+    shading.height = resolutions_[block.resolution].height;
+    write_image(path, shade(rays.rays, hits, block.curves, shading));
+    return path_in_row(path, options_.json);
+}
+
+}  // namespace strandlab

@@ -1,0 +1,412 @@
+// Sweeps of bench: lists, limits, resuming after a kill, parts for many machines, comparison with a baseline.
+#include "base/random.h"
+#include "command_line/files.h"
+#include "command_line/program.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+
+namespace strandlab::testing_tools {
+namespace {
+
+using Json = nlohmann::json;
+
+class SweepTest : public CommandLineTest {
+  protected:
+    /// A sweep of 2 models, 2 ray sets and 4 primitives: 16 cases.
+    static constexpr size_t cases = 16;
+
+    Arguments sweep(const Arguments& more) const {
+        Arguments arguments{"bench",
+                            "generate:fur,strands=60",
+                            "generate:fur,strands=40",
+                            "--device",
+                            "cpu-float",
+                            "--resolution",
+                            "40x24",
+                            "--repeat",
+                            "2",
+                            "--rays",
+                            "primary",
+                            "--rays",
+                            "interior",
+                            "--primitive",
+                            "lss:segments=1,2",
+                            "--primitive",
+                            "prhi:splits=1..2",
+                            "--no-embree"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    }
+
+    std::vector<Json> rows(const std::string& name) const {
+        std::vector<Json> all;
+        std::istringstream stream(read(name));
+        for (std::string line; std::getline(stream, line);) {
+            EXPECT_TRUE(Json::accept(line)) << name << ": " << line.substr(0, 200);
+            if (Json::accept(line)) all.push_back(Json::parse(line));
+        }
+        return all;
+    }
+
+    void write_rows(const std::string& name, const std::vector<Json>& all) const {
+        std::string text;
+        for (const Json& row : all) text += row.dump() + "\n";
+        write(name, text);
+    }
+
+    /// The keys of all rows; fails the test where one is there twice.
+    std::set<std::string> keys(const std::string& name) const {
+        std::set<std::string> all;
+        for (const Json& row : rows(name)) EXPECT_TRUE(all.insert(row.at("key")).second) << row.at("key");
+        return all;
+    }
+};
+
+TEST_F(SweepTest, RunsEveryCombination) {
+    Arguments arguments = sweep({"--json", "r.jsonl"});
+    std::replace(arguments.begin(), arguments.end(), std::string("40x24"), std::string("40x24,20x12"));
+    expect_success(run(arguments));
+    const std::vector<Json> all = rows("r.jsonl");
+    ASSERT_EQ(all.size(), 2 * cases);
+    std::set<size_t> numbers;
+    for (const Json& row : all) {
+        const Json& axes = row.at("sweep");
+        EXPECT_EQ(axes.at("cases"), 2 * cases);
+        EXPECT_EQ(axes.at("primitives"),
+                  Json({"lss:segments=1", "lss:segments=2", "prhi:splits=1", "prhi:splits=2"}));
+        EXPECT_EQ(axes.at("resolutions"), Json({"40x24", "20x12"}));
+        const size_t number = axes.at("case");
+        numbers.insert(number);
+        EXPECT_EQ(axes.at("primitives").at(number % 4), row.at("primitive").at("label"));
+        EXPECT_EQ(axes.at("rays").at(number / 4 % 2), row.at("rays").at("name"));
+        EXPECT_EQ(axes.at("resolutions").at(number / 8 % 2), row.at("rays").at("resolution"));
+        EXPECT_EQ(axes.at("models").at(number / 16), row.at("model").at("spec"));
+        EXPECT_EQ(row.at("time").at("samples_ms").size(), 2u);
+        EXPECT_EQ(row.at("time").at("wall_samples_ms").size(), 2u);
+        EXPECT_EQ(row.at("time").at("ratio").at("baseline"), "lss:segments=1");
+    }
+    EXPECT_EQ(numbers.size(), 2 * cases);
+    // Samples of one model and ray set alternate: in each round every place is taken once.
+    for (size_t round = 0; round < 2; ++round) {
+        std::set<size_t> places;
+        for (const Json& row : all)
+            if (row.at("sweep").at("case") < 4)
+                places.insert(size_t(row.at("time").at("positions").at(round)));
+        EXPECT_EQ(places.size(), 4u);
+    }
+}
+
+TEST_F(SweepTest, EveryRowNamesTheCommandThatMakesItAgain) {
+    write_curves(path("it's.npy"),
+                 {line_curve({0, 0, 0}, {0, 1, 0}, 0.1f), line_curve({1, 0, 0}, {1, 1, 0}, 0.1f)});
+    expect_success(run({"bench",           "it's.npy",
+                        "--device",        "cpu-float",
+                        "--resolution",    "16x9",
+                        "--rays",          "diffuse:shuffled",
+                        "--primitive",     "rocaps:splits=1,2",
+                        "--caps",          "open",
+                        "--repeat",        "1",
+                        "--json",          "a.jsonl",
+                        "--seed",          "5",
+                        "--no-compaction", "--no-embree"}));
+    for (const Json& row : rows("a.jsonl")) {
+        const std::string command = row.at("reproduce");
+        EXPECT_EQ(command.rfind("strandlab bench ", 0), 0u);
+        const std::string shell = "cd '" + path("") + "' && XDG_CACHE_HOME=cache '" STRANDLAB_PROGRAM "' " +
+                                  command.substr(std::string("strandlab ").size()) +
+                                  " --json again.jsonl --quiet > /dev/null";
+        ASSERT_EQ(std::system(shell.c_str()), 0) << shell;
+        bool found = false;
+        for (Json again : rows("again.jsonl"))
+            found |= again.at("key") == row.at("key") && again.at("model_error") == row.at("model_error");
+        EXPECT_TRUE(found) << command;
+    }
+}
+
+TEST_F(SweepTest, MakesEveryKindOfRaysOnce) {
+    Arguments arguments{"bench",        "generate:fur,strands=200",
+                        "--device",     "cpu-float",
+                        "--resolution", "48x32",
+                        "--repeat",     "1",
+                        "--json",       "r.jsonl",
+                        "--primitive",  "lss",
+                        "--primitive",  "rocaps",
+                        "--no-embree"};
+    for (const char* set :
+         {"primary", "primary:shuffled", "shadow", "diffuse", "ambient", "grazing", "interior"})
+        arguments.insert(arguments.end(), {"--rays", set});
+    expect_success(run(arguments));
+    std::map<std::string, std::set<std::string>> hashes;
+    for (const Json& row : rows("r.jsonl")) {
+        const Json& rays = row.at("rays");
+        hashes[rays.at("name")].insert(rays.at("hash").get<std::string>());
+        EXPECT_EQ(rays.at("seed"), 1);
+        EXPECT_EQ(rays.at("shuffled"), rays.at("name") == "primary shuffled");
+        const bool hit_or_miss = rays.at("name") == "shadow" || rays.at("name") == "ambient";
+        EXPECT_EQ(row.at("model_error").at("hit_or_miss_only"), hit_or_miss);
+        // Round hair by exact intersectors: nothing decisive is wrong.
+        if (row.at("primitive").at("name") == "rocaps") {
+            EXPECT_EQ(row.at("model_error").at("decisive").at("false_hit").at("count"), 0) << rays;
+            EXPECT_EQ(row.at("model_error").at("decisive").at("false_miss").at("count"), 0) << rays;
+        }
+    }
+    EXPECT_EQ(hashes.size(), 7u);
+    for (const auto& [name, all] : hashes) EXPECT_EQ(all.size(), 1u) << name;  // the same for both primitives
+}
+
+TEST_F(SweepTest, LeavesOutWhatIsBeyondItsLimits) {
+    const Arguments base{"bench",        "generate:fur,strands=60",
+                         "--device",     "cpu-float",
+                         "--resolution", "96x64",
+                         "--repeat",     "1",
+                         "--rays",       "interior",
+                         "--primitive",  "lss:segments=1,64",
+                         "--no-embree"};
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), base.begin(), base.end());
+        return run(more);
+    };
+    expect_success(with({"--json", "all"}));
+    ASSERT_EQ(rows("all").size(), 2u);
+    const Outcome errors = with({"--json", "error", "--max-error", "0.1"});
+    expect_success(errors);
+    ASSERT_EQ(rows("error").size(), 1u);
+    EXPECT_EQ(rows("error").at(0).at("primitive").at("label"), "lss:segments=64");
+    EXPECT_TRUE(contains(errors.log, "lss:segments=1 is left out, beyond --max-error")) << errors.log;
+    const size_t most = rows("all").at(0).at("memory").at("resident_bytes");
+    expect_success(with({"--json", "memory", "--max-memory", std::to_string(most)}));
+    ASSERT_EQ(rows("memory").size(), 1u);
+    EXPECT_EQ(rows("memory").at(0).at("primitive").at("label"), "lss:segments=1");
+    const Outcome time = with({"--json", "time", "--time-budget", "1e-9"});
+    expect_success(time);
+    EXPECT_FALSE(exists("time"));
+    EXPECT_TRUE(contains(time.log, "--resume")) << time.log;
+    expect_failure(with({"--max-error", "-1"}), 2, {"--max-error"});
+    expect_failure(with({"--max-error", "1", "--error-rays", "0"}), 2, {"--max-error 1", "--error-rays"});
+}
+
+TEST_F(SweepTest, OnePrimitiveAtATimeGivesTheSameRows) {
+    expect_success(run(sweep({"--json", "together"})));
+    expect_success(
+        run(sweep({"--json", "apart", "--interleave", "1", "--baseline-primitive", "prhi:splits=2"})));
+    EXPECT_EQ(keys("together"), keys("apart"));
+    for (const Json& row : rows("apart")) {
+        EXPECT_EQ(row.at("time").at("ratio").at("baseline"), "prhi:splits=2");
+        EXPECT_EQ(row.at("time").at("ratio").at("samples").size(), 2u);
+    }
+    expect_failure(run(sweep({"--baseline-primitive", "dots"})), 2,
+                   {"--baseline-primitive dots", "--primitive"});
+}
+
+TEST_F(SweepTest, ResumesWithoutDoingAnythingTwice) {
+    expect_success(run(sweep({"--json", "r.jsonl", "--csv", "r.csv"})));
+    const std::string before = read("r.jsonl"), csv = read("r.csv");
+    const Outcome again = run(sweep({"--json", "r.jsonl", "--csv", "r.csv", "--resume"}));
+    expect_success(again);
+    EXPECT_EQ(read("r.jsonl"), before);
+    EXPECT_EQ(read("r.csv"), csv);
+    EXPECT_TRUE(contains(again.output, "prhi:splits=2"));  // its table is whole all the same
+    // A line that was torn and one that is gone are measured again.
+    std::vector<Json> all = rows("r.jsonl");
+    const Json last = all.back();
+    all.pop_back();
+    all.erase(all.begin() + 3);
+    write_rows("r.jsonl", all);
+    std::ofstream(path("r.jsonl"), std::ios::app) << last.dump().substr(0, 3000);
+    const Outcome repaired = run(sweep({"--json", "r.jsonl", "--csv", "r.csv", "--resume"}));
+    expect_success(repaired);
+    EXPECT_TRUE(contains(repaired.log, "r.jsonl: its last line was torn")) << repaired.log;
+    EXPECT_EQ(keys("r.jsonl").size(), cases);
+    const std::string table = read("r.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<std::ptrdiff_t>(cases + 1));
+    expect_failure(run(sweep({"--resume"})), 2, {"--resume", "--json"});
+    write("strange", "no rows\n");
+    expect_failure(run(sweep({"--resume", "--json", "strange"})), 5, {"strange", "line 1"});
+}
+
+TEST_F(SweepTest, SurvivesBeingKilledTwentyTimes) {
+    expect_success(run(sweep({"--json", "whole"})));
+    const std::set<std::string> expected = keys("whole");
+    ASSERT_EQ(expected.size(), cases);
+    const bool is_long = std::getenv("STRANDLAB_LONG_TESTS") != nullptr;
+    Random random(7);
+    int unfinished = 0;
+    // The run that the others are cut from takes about a tenth of a second.
+    for (int kill = 0; kill < 20; ++kill) {
+        const pid_t process = start(sweep({"--json", "r.jsonl", "--csv", "r.csv", "--resume"}));
+        std::this_thread::sleep_for(std::chrono::microseconds(random.below(is_long ? 400'000 : 150'000)));
+        ::kill(process, SIGKILL);
+        int status = 0;
+        ::waitpid(process, &status, 0);
+        unfinished += WIFSIGNALED(status) ? 1 : 0;
+        // Some were too quick: begin anew, so that all twenty strike.
+        if (!WIFSIGNALED(status)) {
+            EXPECT_EQ(keys("r.jsonl"), expected);
+            std::filesystem::remove(path("r.jsonl"));
+            std::filesystem::remove(path("r.csv"));
+        }
+    }
+    EXPECT_GT(unfinished, 5);
+    expect_success(run(sweep({"--json", "r.jsonl", "--csv", "r.csv", "--resume"})));
+    EXPECT_EQ(keys("r.jsonl"), expected);
+    const std::string table = read("r.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<std::ptrdiff_t>(cases + 1));
+    for (const std::string& name : files()) EXPECT_EQ(name.find(".tmp"), std::string::npos) << name;
+}
+
+TEST_F(SweepTest, AFullDiskIsSaidAndHurtsNothing) {
+    expect_success(run(sweep({"--json", "whole"})));
+    // Files of at most 40 blocks of 512 bytes: a row and a half.
+    const std::string shell =
+        "cd '" + path("") + "' && ulimit -f 40 && XDG_CACHE_HOME=cache '" STRANDLAB_PROGRAM "' ";
+    std::string command = shell;
+    for (const std::string& word : sweep({"--json", "r.jsonl", "--no-cache"})) command += " '" + word + "'";
+    const int status = std::system((command + " > out.txt 2> err.txt").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 5) << read("err.txt");
+    EXPECT_TRUE(contains(read("err.txt"), "r.jsonl: cannot append: File too large")) << read("err.txt");
+    const size_t kept = rows("r.jsonl").size();
+    EXPECT_LT(kept, cases);
+    expect_success(run(sweep({"--json", "r.jsonl", "--resume"})));
+    EXPECT_EQ(keys("r.jsonl"), keys("whole"));
+}
+
+TEST_F(SweepTest, PartsMakeTheWhole) {
+    expect_success(run(sweep({"--json", "whole.jsonl"})));
+    // As GNU parallel, xargs or a job array would start them: all at once, each in its own file.
+    const bool has_parallel = std::system("parallel --version 2> /dev/null | grep -q '^GNU parallel'") == 0;
+    std::string shell = "cd '" + path("") + "' && seq 4 | XDG_CACHE_HOME=cache HOME=cache " +
+                        (has_parallel ? "parallel -q -j 4" : "xargs -P 4 -I{}") + " '" STRANDLAB_PROGRAM "'";
+    for (const std::string& word : sweep({"--json", "part{}.jsonl", "--shard", "{}/4", "--quiet"}))
+        shell += " '" + word + "'";
+    ASSERT_EQ(std::system((shell + " > out.txt").c_str()), 0);
+    std::map<size_t, Json> merged;
+    for (const char* part : {"1", "2", "3", "4"}) {
+        const std::vector<Json> some = rows("part" + std::string(part) + ".jsonl");
+        EXPECT_EQ(some.size(), cases / 4);
+        for (const Json& row : some) EXPECT_TRUE(merged.emplace(row.at("sweep").at("case"), row).second);
+    }
+    const auto comparable = [](Json row) {
+        for (const char* field : {"time", "context", "reproduce"}) row.erase(field);
+        row.at("sweep").erase("shard");
+        row.at("sweep").erase("shards");
+        return row;
+    };
+    for (const Json& row : rows("whole.jsonl")) {
+        const size_t number = row.at("sweep").at("case");
+        ASSERT_TRUE(merged.contains(number));
+        EXPECT_EQ(comparable(merged.at(number)), comparable(row));
+    }
+    EXPECT_EQ(merged.size(), cases);
+    expect_failure(run(sweep({"--shard", "5/4"})), 2, {"--shard 5/4", "I/N"});
+}
+
+TEST_F(SweepTest, PartsRunAsASlurmJobArray) {
+    // Slurm itself only starts the script, with these variables; here tasks 5 and 6 of a cluster's own count.
+    for (const char* task : {"5", "6"}) {
+        std::string shell = "cd '" + path("") +
+                            "' && XDG_CACHE_HOME=cache STRANDLAB='" STRANDLAB_PROGRAM
+                            "' SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_ID=" +
+                            task + " '" STRANDLAB_MODELS "/../tools/sweep_array' results";
+        Arguments arguments = sweep({"--quiet"});
+        for (size_t i = 1; i < arguments.size(); ++i) shell += " '" + arguments[i] + "'";
+        ASSERT_EQ(std::system((shell + " > out.txt").c_str()), 0) << shell;
+    }
+    std::set<std::string> all = keys("results/part1.jsonl");
+    EXPECT_EQ(all.size(), cases / 2);
+    all.merge(keys("results/part2.jsonl"));
+    EXPECT_EQ(all.size(), cases);
+    const int status = std::system("bash '" STRANDLAB_MODELS "/../tools/sweep_array' x 2> /dev/null");
+    EXPECT_NE(status, 0);
+}
+
+TEST_F(SweepTest, RebuildsThePublishedTableAtTheSizeThatTheDeviceTakes) {
+    const Outcome outcome =
+        run({"bench", "--preset", "article", "--device", "cpu-float", "--error-rays", "0", "--repeat", "1",
+             "--resolution", "8x8", "--primitive", "lss:segments=1", "--no-embree", "--json", "r.jsonl"});
+    expect_success(outcome);
+    for (const char* text : {"11,836,704 curves are too many for cpu-float; scaled down to 197,184",
+                             "1,656,005 curves are too many for cpu-float; scaled down to 183,950"})
+        EXPECT_TRUE(contains(outcome.log, text)) << outcome.log;
+    const std::vector<Json> all = rows("r.jsonl");
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all.at(0).at("model").at("curves"), 197'184);
+    EXPECT_EQ(all.at(1).at("model").at("curves"), 183'950);
+    // One line of the table for each, with the memory of the buffers: 40 bytes a curve here.
+    EXPECT_TRUE(contains(outcome.output, "197,184  lss:segments=1")) << outcome.output;
+    EXPECT_EQ(all.at(0).at("memory").at("buffer_bytes"), 197'184 * 40);
+}
+
+TEST_F(SweepTest, ComparesWithABaseline) {
+    expect_success(run(sweep({"--json", "old.jsonl"})));
+    // Nothing is measured: the same rows, with the times of some changed by hand.
+    const auto compare = [&](const std::vector<Json>& changed) {
+        write_rows("new.jsonl", changed);
+        return run(sweep({"--json", "new.jsonl", "--resume", "--baseline", "old.jsonl"}));
+    };
+    std::vector<Json> all = rows("old.jsonl");
+    for (Json& row : all) row.at("time").at("ratio").at("samples") = {1.0, 1.01, 0.99, 1.0};
+    write_rows("old.jsonl", all);
+    const Outcome same = compare(all);
+    expect_success(same);
+    EXPECT_TRUE(contains(same.output, "16 rows compared, times of 12: no difference")) << same.output;
+
+    std::vector<Json> slower = all;
+    slower[3].at("time").at("ratio").at("samples") = {2.0, 2.02, 1.98, 2.0};
+    const Outcome found = compare(slower);
+    EXPECT_EQ(found.code, 1) << found.log;
+    EXPECT_TRUE(contains(found.output, "slower, 2.00 times as long")) << found.output;
+    EXPECT_TRUE(contains(found.output, "1 worse, 0 better")) << found.output;
+    expect_failure(run(sweep({"--baseline", "absent.jsonl"})), 5, {"absent.jsonl"});
+}
+
+TEST_F(SweepTest, FindsADeliberateErrorAndAnotherRadius) {
+    const auto bench = [&](const char* primitive, const Arguments& more) {
+        Arguments arguments{"bench",        "generate:fur,strands=60",
+                            "--device",     "cpu-float",
+                            "--resolution", "64x48",
+                            "--repeat",     "2",
+                            "--rays",       "interior",
+                            "--primitive",  "lss",
+                            "--primitive",  primitive,
+                            "--no-embree",  "--baseline-primitive",
+                            "lss"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    expect_success(bench("dots", {"--json", "old.jsonl"}));
+    // Strips that are wider than the strand.
+    const Outcome wider = bench("dots:width=projected", {"--baseline", "old.jsonl"});
+    EXPECT_EQ(wider.code, 1) << wider.log;
+    EXPECT_TRUE(contains(wider.output, "dots:width=projected (was dots): model_error: ")) << wider.output;
+    // All radii 1 % off: other curves, and rays that start elsewhere.
+    write_curves(path("a.npy"),
+                 {line_curve({0, 0, 0}, {0, 1, 0}, 0.1f), line_curve({1, 0, 0}, {1, 1, 0}, 0.1f)});
+    const Arguments radius{
+        "bench",       "a.npy",    "--device",    "cpu-float", "--resolution",
+        "32x32",       "--repeat", "1",           "--rays",    "primary",
+        "--primitive", "lss",      "--no-embree", "--camera",  "eye=0.5,0.5,4:target=0.5,0.5,0"};
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), radius.begin(), radius.end());
+        return run(more);
+    };
+    expect_success(with({"--json", "r.jsonl"}));
+    expect_success(with({"--baseline", "r.jsonl"}));
+    write_curves(path("a.npy"),
+                 {line_curve({0, 0, 0}, {0, 1, 0}, 0.101f), line_curve({1, 0, 0}, {1, 1, 0}, 0.101f)});
+    const Outcome other = with({"--baseline", "r.jsonl"});
+    EXPECT_EQ(other.code, 1) << other.log;
+    EXPECT_TRUE(contains(other.output, "the curves changed")) << other.output;
+}
+
+}  // namespace
+}  // namespace strandlab::testing_tools
