@@ -35,7 +35,8 @@ RowError row_error(const Json& row) {
         double wrong = 0;
         for (const char* outcome : {"nan", "false_hit", "false_miss", "wrong_strand", "wrong_place"})
             wrong += number_or_nan(row, std::string("model_error.all.") + outcome + ".count");
-        error.wrong_share = wrong / rays;
+        const double met = rays - number_at(row, "model_error.all.agreed_misses").value_or(0);
+        error.wrong_share = met > 0 ? wrong / met : 0;
     }
     error.ranking = ranking_error(error.wrong_share, error.distance_p99, error.hit_or_miss_only);
     return error;

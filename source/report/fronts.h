@@ -39,6 +39,8 @@ std::string comparable_group(const nlohmann::ordered_json& row);
 struct FrontMarks {
     bool time_error = false, memory_error = false;  // against RowError::ranking
     bool time_wrong = false, memory_wrong = false;  // against RowError::wrong_share
+
+    bool any() const { return time_error || memory_error || time_wrong || memory_wrong; }
 };
 
 /// The marks of each row, among the rows of its group. What is no choice is on no front.
