@@ -27,8 +27,9 @@ void erase(Json& object, const char* key) {
 
 /// Drops what no report shows, which is most of a row.
 void prune(Json& row) {
-    for (const char* key : {"samples_ms", "wall_samples_ms", "positions", "ratio_samples"})
+    for (const char* key : {"samples_ms", "wall_samples_ms", "positions"})
         if (row.contains("time")) erase(row["time"], key);
+    if (field_at(row, "time.ratio")) erase(row["time"]["ratio"], "samples");
     for (const auto& [error, group] : {std::pair("intersector_error", "decisive"), {"model_error", "all"}}) {
         if (!row.contains(error) || !row[error].is_object()) continue;
         for (const char* other : {"decisive", "all", "on_cap", "inside", "inside_own"})

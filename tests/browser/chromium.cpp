@@ -162,11 +162,17 @@ void Chromium::mouse(const std::string& type, double x, double y) {
     command("Input.dispatchMouseEvent", event);
 }
 
+Json Chromium::show(const std::string& selector) {
+    const std::string element = "document.querySelector(" + Json(selector).dump() + ")";
+    evaluate(element + ".scrollIntoView({block: 'center', behavior: 'instant'})");
+    // What comes of scrolling comes with the next frames.
+    evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
+    return evaluate("(() => { const b = " + element +
+                    ".getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
+}
+
 void Chromium::click(const std::string& selector) {
-    const Json place =
-        evaluate("(() => { const e = document.querySelector(" + Json(selector).dump() +
-                 "); e.scrollIntoView({block: 'center', behavior: 'instant'}); const b = "
-                 "e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
+    const Json place = show(selector);
     for (const char* type : {"mouseMoved", "mousePressed", "mouseReleased"}) mouse(type, place[0], place[1]);
 }
 

@@ -35,7 +35,9 @@ class Chromium {
     Json evaluate(const std::string& expression);
     /// "mouseMoved", "mousePressed", "mouseReleased" or "mouseWheel" (upwards).
     void mouse(const std::string& type, double x, double y);
-    /// Presses and releases at the middle of the first element of a selector, which is scrolled into view.
+    /// Scrolls the first element of a selector into view; returns the place [x, y] of its middle.
+    Json show(const std::string& selector);
+    /// Presses and releases there.
     void click(const std::string& selector);
     void press_key(const std::string& key);
     /// A PNG file of what is seen.

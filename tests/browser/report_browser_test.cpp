@@ -132,10 +132,10 @@ TEST_F(ReportBrowserTest, OpensWithoutAWordOnTheConsole) {
 
 TEST_F(ReportBrowserTest, MarksAreSeen) {
     open(results());
+    browser().show("#tradeoffs use[data-r]");
     const Json box = browser().evaluate(
-        "(() => { const m = document.querySelector('#tradeoffs use[data-r]'); "
-        "m.scrollIntoView({block: 'center', behavior: 'instant'}); const b = m.getBoundingClientRect(); "
-        "return [b.width, b.height, getComputedStyle(m).stroke]; })()");
+        "(() => { const m = document.querySelector('#tradeoffs use[data-r]'); const b = "
+        "m.getBoundingClientRect(); return [b.width, b.height, getComputedStyle(m).stroke]; })()");
     EXPECT_GT(box[0], 3);
     EXPECT_GT(box[1], 3);
     EXPECT_NE(box[2], "none");
@@ -143,11 +143,8 @@ TEST_F(ReportBrowserTest, MarksAreSeen) {
 
 TEST_F(ReportBrowserTest, PointingAtAMarkShowsItsRow) {
     open(results());
-    const Json place = browser().evaluate(
-        "(() => { const m = document.querySelector('#tradeoffs use[data-r=\"1\"]'); "
-        "m.scrollIntoView({block: 'center', behavior: 'instant'}); const b = m.getBoundingClientRect(); "
-        "return [b.x + b.width / 2 + 5, b.y + b.height / 2]; })()");
-    browser().mouse("mouseMoved", place[0], place[1]);
+    const Json place = browser().show("#tradeoffs use[data-r=\"1\"]");
+    browser().mouse("mouseMoved", place[0].get<double>() + 5, place[1]);
     EXPECT_EQ(browser().evaluate("document.getElementById('tip').hidden"), false);
     EXPECT_EQ(browser().evaluate("document.querySelector('#tip b').textContent"), "lss:segments=8");
     browser().mouse("mouseMoved", 2, 2);
@@ -241,9 +238,7 @@ TEST_F(ReportBrowserTest, TwoPicturesAreCompared) {
         "})()");
     EXPECT_NE(browser().evaluate(clip), before);
     EXPECT_EQ(browser().evaluate(clip), "inset(0px 0px 0px 20%)");
-    const Json place = browser().evaluate(
-        "(() => { const s = document.getElementById('stage'); s.scrollIntoView({block: 'center', behavior: "
-        "'instant'}); const b = s.getBoundingClientRect(); return [b.x + 40, b.y + 40]; })()");
+    const Json place = browser().show("#stage");
     browser().mouse("mouseWheel", place[0], place[1]);
     const std::string transform = "document.getElementById('layers').style.transform";
     EXPECT_NE(browser().evaluate("new Promise(done => setTimeout(() => done(" + transform + "), 200))"), "");

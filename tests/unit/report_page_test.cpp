@@ -160,7 +160,7 @@ TEST(ReportPage, FiguresAreFilesOfTheirOwn) {
         ++seen;
     }
     EXPECT_EQ(seen, count);
-    EXPECT_TRUE(std::filesystem::exists(folder / "figures/tuft.primary.llvmpipe.time-error.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "figures/tuft.primary_rays.llvmpipe.time-error.svg"));
 }
 
 TEST(ReportPage, NamesOfFiguresLeadNowhereElse) {

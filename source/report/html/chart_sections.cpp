@@ -17,7 +17,7 @@ std::string inside_page(const std::optional<Drawing>& drawing) {
 
 /// A panel with a heading; rays are left out where a chart does not depend on them.
 std::string panel(const RowGroup& group, bool with_rays, const std::string& charts) {
-    const std::string rays = with_rays ? fmt::format("{} rays, ", escape_markup(group.rays)) : "";
+    const std::string rays = with_rays ? escape_markup(group.rays) + ", " : "";
     return fmt::format(
         "<article class=\"panel\" data-scene=\"{0}\"{1} data-device=\"{2}\"><h3>{0} <small>{3}{2}, {4} "
         "traversal</small></h3>\n{5}</article>\n",

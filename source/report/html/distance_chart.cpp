@@ -52,7 +52,7 @@ std::optional<Drawing> distance_chart(const ChartRows& data, const RowGroup& gro
     if (lines.empty()) return std::nullopt;
     Drawing drawing(390, 300, fmt::format("{}: {}", title, group.title()));
     draw_legend(drawing, data.rows, members, area.left, 14);
-    const LogAxis x(scales, area.left, area.right), y(values, area.bottom, area.top);
+    const LogAxis x(scales, area.left + 8, area.right - 8), y(values, area.bottom - 8, area.top + 8);
     draw_grid(drawing, area, x, y);
     for (const auto& [row, samples] : lines) {
         std::vector<LinePoint> points;

@@ -83,9 +83,11 @@ std::string box_path(double x, double y, double width, double height) {
 }
 
 std::string Drawing::inside_page() const {
+    // Wide ones keep their size and scroll.
+    const std::string size = width_ > 560 ? fmt::format(" wide\" width=\"{}", coordinate(width_)) : "";
     return fmt::format(
-        "<svg class=\"chart\" viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\">{3}</svg>",
-        coordinate(width_), coordinate(height_), escape_markup(title_), body());
+        "<svg class=\"chart{4}\" viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\">{3}</svg>",
+        coordinate(width_), coordinate(height_), escape_markup(title_), body(), size);
 }
 
 std::string Drawing::file() const {

@@ -72,7 +72,7 @@ std::optional<Drawing> exceedance_chart(const ChartRows& data, const RowGroup& g
     }
     shares.push_back(1);
     const double top = draw_legend(drawing, data.rows, members, left, 14) + 2;
-    const LogAxis x(errors, left, right), y(shares, bottom, top);
+    const LogAxis x(errors, left + 8, right - 8), y(shares, bottom - 8, top + 4);
     const PlotArea area{left, top, right, bottom};
     draw_grid(drawing, area, x, y, 100);
     for (const Tail& curve : curves) {

@@ -2,32 +2,17 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "report/file_name.h"
 #include "report/html/page.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cctype>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
 namespace strandlab {
 namespace {
-
-/// A name that a file may have anywhere.
-std::string file_name(std::string_view text) {
-    std::string name;
-    for (const char c : text) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '=';
-        if (plain)
-            name += c;
-        else if (!name.empty() && name.back() != '_')
-            name += '_';
-    }
-    if (name.size() > 60) name.resize(60);
-    while (name.ends_with('_')) name.pop_back();
-    return name.empty() ? "unnamed" : name;
-}
 
 /// Writes charts under names that are all different.
 class FigureFolder {
@@ -59,8 +44,8 @@ size_t write_figures(const MergedResults& results, const std::string& folder) {
     FigureFolder figures(folder);
     std::set<std::pair<std::string, std::string>> with_memory;
     for (const RowGroup& group : data.groups) {
-        const std::string scene = file_name(group.scene), device = file_name(group.device);
-        const std::string stem = scene + "." + file_name(group.rays) + "." + device;
+        const std::string scene = file_name_of(group.scene), device = file_name_of(group.device);
+        const std::string stem = scene + "." + file_name_of(group.rays) + "." + device;
         if (!group.hit_or_miss_only) {
             figures.write(stem, "time-error", pareto_chart(rows, group, Cost::time, ErrorKind::distance));
             figures.write(stem, "memory-error", pareto_chart(rows, group, Cost::memory, ErrorKind::distance));
@@ -71,7 +56,7 @@ size_t write_figures(const MergedResults& results, const std::string& folder) {
         figures.write(stem, "model-error", exceedance_chart(rows, group, Against::curves));
         figures.write(stem, "intersector-error", exceedance_chart(rows, group, Against::own_surface));
         for (const auto& [figure, title] : distance_figures)
-            figures.write(stem, file_name(figure).c_str(),
+            figures.write(stem, file_name_of(figure).c_str(),
                           distance_chart(rows, group, std::string(figure), std::string(title)));
         if (with_memory.emplace(group.scene, group.device).second)
             figures.write(scene + "." + device, "memory", memory_chart(rows, group));

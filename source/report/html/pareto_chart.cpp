@@ -16,7 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double width = 390, height = 320, left = 54, right = 374, bottom = 274, band = 34;
+constexpr double width = 390, height = 320, left = 54, right = 374, bottom = 274;
+/// Beside the logarithmic axis: what has no place on it. Within it: room for marks at its ends.
+constexpr double band = 30, wide_band = 44, margin = 8;
 
 /// A row as a point; x and y are pixels once it has been placed.
 struct Point {
@@ -96,13 +98,13 @@ class ParetoChart {
         }
         has_zero_ = any([](const Point& p) { return p.error == 0; });
         has_infinite_ = any([](const Point& p) { return std::isinf(p.error); });
-        plot_left_ = left + (has_zero_ ? band : 0);
-        plot_right_ = right - (has_infinite_ ? band + 14 : 0);
+        plot_left_ = left + margin + (has_zero_ ? band : 0);
+        plot_right_ = right - margin - (has_infinite_ ? wide_band + 4 : 0);
         x_.emplace(errors, plot_left_, plot_right_);
-        y_.emplace(costs, bottom, top_);
+        y_.emplace(costs, bottom - margin, top_ + margin);
         for (Point& point : points_) {
             point.x = point.error == 0          ? left + band / 2
-                      : std::isinf(point.error) ? (plot_right_ + right) / 2
+                      : std::isinf(point.error) ? right - wide_band / 2
                                                 : x_->at(point.error);
             point.y = y_->at(point.cost);
         }
@@ -110,13 +112,13 @@ class ParetoChart {
 
     void draw_axes() {
         if (has_zero_) drawing_.rectangle("band", left, top_, band, bottom - top_);
-        if (has_infinite_) drawing_.rectangle("band", plot_right_, top_, right - plot_right_, bottom - top_);
+        if (has_infinite_) drawing_.rectangle("band", right - wide_band, top_, wide_band, bottom - top_);
         const PlotArea area{left, top_, right, bottom};
         draw_grid(drawing_, area, *x_, *y_);
         if (has_zero_) drawing_.text("tick middle", left + band / 2, bottom + 15, "0");
         if (has_infinite_) {
-            drawing_.text("tick middle", (plot_right_ + right) / 2, bottom + 15, "> 1 %");
-            drawing_.text("tick middle", (plot_right_ + right) / 2, bottom + 27, "wrong");
+            drawing_.text("tick middle", right - wide_band / 2, bottom + 15, "> 1 %");
+            drawing_.text("tick middle", right - wide_band / 2, bottom + 27, "wrong");
         }
         draw_limit(kind_ == ErrorKind::wrong ? 1 : 0.1);
         strandlab::draw_axes(

@@ -41,7 +41,7 @@ void tell_apart(std::vector<RowGroup>& groups, std::span<const Json> rows, std::
         const bool differ = std::any_of(members.begin(), members.end(),
                                         [&](size_t i) { return text(i) != text(members[0]); });
         for (const size_t i : members)
-            if (differ && !text(i).empty()) groups[i].*name += fmt::format(" ({})", text(i));
+            if (differ && !text(i).empty()) groups[i].*name += ", " + text(i);
     }
 }
 
@@ -71,7 +71,7 @@ void add_opinions(std::vector<RowGroup>& groups, std::span<const Json> rows,
 RowGroup named_group(const Json& row) {
     RowGroup group;
     group.scene = scene_name(row);
-    group.rays = text_at(row, "rays.name");
+    group.rays = text_at(row, "rays.name") + " rays";
     group.device = short_device_name(text_at(row, "device.name"));
     group.device_class = text_at(row, "device.class");
     group.hit_or_miss_only = row_error(row).hit_or_miss_only;
@@ -81,7 +81,7 @@ RowGroup named_group(const Json& row) {
 }  // namespace
 
 std::string RowGroup::title() const {
-    return fmt::format("{}, {} rays, {} ({} traversal)", scene, rays, device, device_class);
+    return fmt::format("{}, {}, {} ({} traversal)", scene, rays, device, device_class);
 }
 
 std::vector<size_t> RowGroup::all() const {
@@ -131,7 +131,7 @@ std::string short_device_name(const std::string& name) { return name.substr(0, n
 std::string row_label(const Json& row) {
     const std::string label = text_at(row, "primitive.label");
     if (!is_true_at(row, "primitive.caps_fell_back")) return label;
-    return fmt::format("{} ({} ends)", label, text_at(row, "primitive.caps"));
+    return fmt::format("{} ({})", label, text_at(row, "primitive.caps"));
 }
 
 double draw_legend(Drawing& drawing, std::span<const Json> rows, std::span<const size_t> members, double x,

@@ -14,7 +14,7 @@ namespace strandlab {
 
 /// Rows of one model, one ray set and one device. The two kinds of traversal never meet in a group.
 struct RowGroup {
-    std::string scene, rays, device, device_class;  // as people read them
+    std::string scene, rays, device, device_class;  // as people read them: "primary rays"
     bool hit_or_miss_only = false;
     std::vector<size_t> members;
     std::vector<size_t> opinions;  // Embree's rows of the same rays on the same machine's processor
@@ -36,7 +36,7 @@ size_t series_of(const nlohmann::ordered_json& row);
 /// A device's name without what follows in brackets.
 std::string short_device_name(const std::string& name);
 
-/// "lss:segments=8", with the caps where they are not those of the scene: "dots (open ends)".
+/// "lss:segments=8", with the caps where they are not those of the scene: "dots (open)".
 std::string row_label(const nlohmann::ordered_json& row);
 
 /// One line per series that is present, from (x, y) on to the right, wrapped at the drawing's edge; returns

@@ -38,15 +38,15 @@ double error_rate(const Json& cell) {
     return decisive > 0 ? wrong / decisive : 0;
 }
 
-/// A class for the verdict and one for the decade of the rate: e0 none, e1 below 1e-5, ... e6 a tenth or
-/// more.
-std::string style_of(const Json& cell) {
+const char* verdict_style(const Json& cell) {
     const std::string verdict = text_at(cell, "verdict");
-    const char* judged = verdict == "holds" ? "holds" : verdict == "FAILS" ? "fails" : "open";
-    const double rate = error_rate(cell);
-    const int decade =
-        rate > 0 ? static_cast<int>(std::clamp(std::floor(std::log10(rate)) + 7, 1.0, 6.0)) : 0;
-    return fmt::format("cell {} e{}", judged, decade);
+    return verdict == "holds" ? "holds" : verdict == "FAILS" ? "fails" : "open";
+}
+
+/// The decade of the rate: e0 none, e1 below 1e-5, ... e6 a tenth or more.
+std::string decade_style(double rate) {
+    if (!(rate > 0)) return "e0";
+    return fmt::format("e{}", static_cast<int>(std::clamp(std::floor(std::log10(rate)) + 7, 1.0, 6.0)));
 }
 
 }  // namespace
@@ -75,9 +75,10 @@ std::optional<Drawing> stress_chart(std::span<const Json> cells) {
         const double x = left + cell_width * columns.place_of(column_of(cell));
         const double y = top + cell_height * families.place_of(text_at(cell, "family"));
         const double rate = error_rate(cell);
-        const std::string style = style_of(cell);
-        drawing.rectangle(style, x + 1, y + 1, cell_width - 2, cell_height - 2);
-        drawing.text("in " + style, x + 8, y + 14, rate > 0 ? fmt::format("{:.1e}", rate) : "0");
+        const std::string decade = decade_style(rate);
+        drawing.rectangle(fmt::format("cell {} {}", verdict_style(cell), decade), x + 1, y + 1,
+                          cell_width - 2, cell_height - 2);
+        drawing.text("in " + decade, x + 8, y + 14, rate > 0 ? fmt::format("{:.1e}", rate) : "0");
     }
     return drawing;
 }

@@ -82,7 +82,7 @@ std::vector<Column> columns() {
     return {
         {"primitive",
          "",
-         "with its parameters; (ends) where it cannot close strand ends as the scene asks",
+         "with its parameters; in brackets its strand ends where it cannot close them as the scene asks",
          row_label,
          {}},
         text_column("scene", "model.name"),

@@ -36,9 +36,8 @@ std::vector<GroupChoices> all_choices(const PageData& data) {
     return all;
 }
 
-std::string label_html(const Json& row) {
-    return fmt::format("<span class=\"primitive s{}\">{}</span>", series_of(row),
-                       escape_markup(row_label(row)));
+std::string label_html(const Json& row, const std::string& label) {
+    return fmt::format("<span class=\"primitive s{}\">{}</span>", series_of(row), escape_markup(label));
 }
 
 std::string error_text(const Json& row) {
@@ -62,7 +61,7 @@ std::string choice_cell(const PageData& data, const char* heading, const std::op
     const Json& row = data.results.rows[*choice];
     html +=
         fmt::format("<button class=\"row-link\" data-r=\"{}\">{}</button><small><b>{}</b>, {}<br>{}</small>",
-                    *choice, label_html(row), by_memory ? memory_text(row) : time_text(row),
+                    *choice, label_html(row, row_label(row)), by_memory ? memory_text(row) : time_text(row),
                     by_memory ? time_text(row) : memory_text(row), error_text(row));
     constexpr size_t shown = 2;
     if (!as_fast.empty()) {
@@ -77,7 +76,7 @@ std::string choice_cell(const PageData& data, const char* heading, const std::op
 
 std::string table_row(const PageData& data, const GroupChoices& choices) {
     const RowGroup& group = *choices.group;
-    std::string html = fmt::format("<tr><th scope=\"row\">{}<small>{} rays<br>{}, {}</small></th>",
+    std::string html = fmt::format("<tr><th scope=\"row\">{}<small>{}<br>{}, {}</small></th>",
                                    escape_markup(group.scene), escape_markup(group.rays),
                                    escape_markup(group.device), escape_markup(group.device_class));
     const Choices& loose = choices.within[0];
@@ -105,7 +104,7 @@ std::string winners(const PageData& data, const std::vector<std::optional<size_t
             ++none;
             continue;
         }
-        const std::string label = row_label(data.results.rows[*choice]);
+        const std::string label = text_at(data.results.rows[*choice], "primitive.label");
         ++counts[label];
         example.emplace(label, *choice);
     }
@@ -118,7 +117,8 @@ std::string winners(const PageData& data, const std::vector<std::optional<size_t
     for (size_t i = 0; i < order.size(); ++i)
         if (i < shown)
             html += fmt::format("{}{} in {}", i == 0 ? "" : ", ",
-                                label_html(data.results.rows[example[order[i].first]]), order[i].second);
+                                label_html(data.results.rows[example[order[i].first]], order[i].first),
+                                order[i].second);
         else
             others += order[i].second;
     if (others > 0) html += fmt::format(", others in {}", others);
