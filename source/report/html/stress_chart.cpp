@@ -62,7 +62,9 @@ std::optional<Drawing> stress_chart(std::span<const Json> cells) {
     const double width = left + cell_width * static_cast<double>(columns.all().size()) + 4;
     Drawing drawing(width, top + cell_height * static_cast<double>(families.all().size()) + 6,
                     "Wrong answers among decisive rays of hard families");
-    drawing.text("key", 4, 14, "share of decisive rays answered wrongly");
+    drawing.text("key", 4, 14,
+                 "share of decisive rays answered wrongly; green holds what is documented, red does not, "
+                 "grey is not judged");
     for (const std::string& column : columns.all()) {
         const double x = left + cell_width * columns.place_of(column) + 4;
         const size_t cut = column.find('\n');
