@@ -23,6 +23,7 @@ Command compare_command();
 Command convert_command();
 Command info_command();
 Command render_command();
+Command report_command();
 Command stress_command();
 Command trace_command();
 Command validate_command();

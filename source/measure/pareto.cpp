@@ -42,7 +42,8 @@ std::optional<size_t> cheapest_within(std::span<const TradeOff> cases, double li
 double wrong_share(const Tally& tally) {
     const uint64_t wrong = tally.nan.count + tally.false_hit.count + tally.false_miss.count +
                            tally.wrong_strand.count + tally.wrong_place.count;
-    return tally.rays == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(tally.rays);
+    const uint64_t met = tally.rays - tally.agreed_misses;
+    return met == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(met);
 }
 
 double ranking_error(double wrong_share, std::optional<double> distance_p99, bool hit_or_miss_only) {

@@ -27,13 +27,14 @@ std::optional<size_t> cheapest_within(std::span<const TradeOff> cases, double li
 /// Above this share of wrong rays, 99 % of the rays have no distance that they stay within.
 inline constexpr double largest_wrong_share = 0.01;
 
-/// Share of the rays that are wrong beyond any distance: NaN, hit instead of miss, miss instead of hit,
-/// another strand, another place.
+/// Share of the rays that are wrong beyond any distance (NaN, hit instead of miss, miss instead of hit,
+/// another strand, another place) among those that meet hair in either answer: much background makes nobody
+/// better. 0 where none does.
 double wrong_share(const Tally& tally);
 
 /// The one error that a case is ranked by: the 99th percentile of |dt|/r of the right hits, infinite where
-/// more than largest_wrong_share of all rays are wrong, since then no distance holds for 99 % of them. A set
-/// of hit or miss alone has no distances: 0 or infinite. NaN where nothing was compared.
+/// more than largest_wrong_share of the rays that meet hair are wrong, since then no distance holds for 99 %
+/// of them. A set of hit or miss alone has no distances: 0 or infinite. NaN where nothing was compared.
 double ranking_error(double wrong_share, std::optional<double> distance_p99, bool hit_or_miss_only);
 
 /// The same of a comparison: of all rays that start outside and whose hit is not on a cap.

@@ -14,12 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_diagnostic(const Json& row) {
-    const std::string name = text_at(row, "primitive.name");
-    return std::any_of(primitives().begin(), primitives().end(),
-                       [&](const Primitive& one) { return one.diagnostic && one.name == name; });
-}
-
 /// Marks the front of some rows.
 void mark(std::span<const Json> rows, const std::vector<size_t>& members, double (*cost)(const Json&),
           double RowError::*error, bool FrontMarks::*flag, std::vector<FrontMarks>& marks) {
@@ -41,7 +35,8 @@ RowError row_error(const Json& row) {
         double wrong = 0;
         for (const char* outcome : {"nan", "false_hit", "false_miss", "wrong_strand", "wrong_place"})
             wrong += number_or_nan(row, std::string("model_error.all.") + outcome + ".count");
-        error.wrong_share = wrong / rays;
+        const double met = rays - number_at(row, "model_error.all.agreed_misses").value_or(0);
+        error.wrong_share = met > 0 ? wrong / met : 0;
     }
     error.ranking = ranking_error(error.wrong_share, error.distance_p99, error.hit_or_miss_only);
     return error;
@@ -52,6 +47,13 @@ double row_time(const Json& row) { return number_or_nan(row, "time.trace_ms.medi
 double row_memory(const Json& row) { return number_or_nan(row, "memory.resident_bytes"); }
 
 bool is_second_opinion(const Json& row) { return text_at(row, "device.driver").starts_with("Embree"); }
+
+bool is_choice(const Json& row) {
+    const std::string name = text_at(row, "primitive.name");
+    const auto found = std::find_if(primitives().begin(), primitives().end(),
+                                    [&](const Primitive& one) { return one.name == name; });
+    return !is_second_opinion(row) && (found == primitives().end() || !found->diagnostic);
+}
 
 std::string comparable_group(const Json& row) {
     // An array, so that no name can pretend to be another field.
@@ -66,8 +68,7 @@ std::string comparable_group(const Json& row) {
 std::vector<FrontMarks> pareto_fronts(std::span<const Json> rows) {
     std::map<std::string, std::vector<size_t>> groups;
     for (size_t i = 0; i < rows.size(); ++i)
-        if (!is_second_opinion(rows[i]) && !is_diagnostic(rows[i]))
-            groups[comparable_group(rows[i])].push_back(i);
+        if (is_choice(rows[i])) groups[comparable_group(rows[i])].push_back(i);
     std::vector<FrontMarks> marks(rows.size());
     for (const auto& [group, members] : groups) {
         mark(rows, members, row_time, &RowError::ranking, &FrontMarks::time_error, marks);

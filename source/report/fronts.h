@@ -28,6 +28,9 @@ double row_memory(const nlohmann::ordered_json& row);
 /// Whether Embree made the row: a second opinion, which is on no front.
 bool is_second_opinion(const nlohmann::ordered_json& row);
 
+/// Whether one may choose the row's primitive: measuring aids (`null`) and Embree are there to compare with.
+bool is_choice(const nlohmann::ordered_json& row);
+
 /// Equal for rows whose times, memory and errors may be compared: class and name of the device, model,
 /// instances, ray set. Software and hardware traversal are never equal.
 std::string comparable_group(const nlohmann::ordered_json& row);
@@ -36,10 +39,11 @@ std::string comparable_group(const nlohmann::ordered_json& row);
 struct FrontMarks {
     bool time_error = false, memory_error = false;  // against RowError::ranking
     bool time_wrong = false, memory_wrong = false;  // against RowError::wrong_share
+
+    bool any() const { return time_error || memory_error || time_wrong || memory_wrong; }
 };
 
-/// The marks of each row, among the rows of its group. Rows of the diagnostic primitive `null` and of
-/// Embree are on no front.
+/// The marks of each row, among the rows of its group. What is no choice is on no front.
 std::vector<FrontMarks> pareto_fronts(std::span<const nlohmann::ordered_json> rows);
 
 }  // namespace strandlab

@@ -234,10 +234,9 @@ std::string to_line(const Json& object) {
     return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::vector<Json> read_json_lines(const std::string& path) {
+void for_each_json_line(const std::string& path, const std::function<void(size_t line, Json& row)>& visit) {
     std::ifstream file(path, std::ios::binary);
     if (!file) fail(ExitCode::bad_input, "{}: cannot open this result file", path);
-    std::vector<Json> rows;
     size_t number = 0;
     for (std::string line; std::getline(file, line);) {
         ++number;
@@ -250,7 +249,7 @@ std::vector<Json> read_json_lines(const std::string& path) {
         };
         Json row = Json::parse(line, stay_shallow, false);
         if (row.is_object() && !too_deep)
-            rows.push_back(std::move(row));
+            visit(number, row);
         else if (!is_complete)
             warn("{}: line {} was cut off and is left out", path, number);
         else
@@ -259,6 +258,11 @@ std::vector<Json> read_json_lines(const std::string& path) {
                  number);
     }
     if (file.bad()) fail(ExitCode::bad_input, "{}: cannot read beyond line {}", path, number);
+}
+
+std::vector<Json> read_json_lines(const std::string& path) {
+    std::vector<Json> rows;
+    for_each_json_line(path, [&](size_t, Json& row) { rows.push_back(std::move(row)); });
     return rows;
 }
 

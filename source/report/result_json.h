@@ -5,6 +5,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +30,13 @@ nlohmann::ordered_json json_number(double value);
 /// Its inverse; nothing for null and whatever else is no number.
 std::optional<double> number_of(const nlohmann::ordered_json& value);
 
-/// The objects of a JSON Lines file. A last line that was cut off (no newline, not an object) is left out
-/// with a warning: its writer was interrupted. Throws Error (bad_input) naming file and line for any other
-/// line that is no JSON object.
+/// Visits the objects of a JSON Lines file with the numbers of their lines (from 1). A last line that was cut
+/// off (no newline, not an object) is left out with a warning: its writer was interrupted. Throws Error
+/// (bad_input) naming file and line for any other line that is no JSON object.
+void for_each_json_line(const std::string& path,
+                        const std::function<void(size_t line, nlohmann::ordered_json& row)>& visit);
+
+/// The same objects, all of them.
 std::vector<nlohmann::ordered_json> read_json_lines(const std::string& path);
 
 }  // namespace strandlab

@@ -74,6 +74,9 @@ TEST(Fronts, WhatMissesTheHairIsNeverBest) {
     const std::vector<FrontMarks> marks = pareto_fronts(rows);
     EXPECT_FALSE(marks[0].time_error);
     EXPECT_TRUE(marks[1].time_error);
+    Json background = rows[1];
+    background["model_error"]["all"]["agreed_misses"] = 500;
+    EXPECT_DOUBLE_EQ(row_error(background).wrong_share, 0.02);
     EXPECT_TRUE(marks[0].time_wrong);  // cheaper, and almost as often right
 }
 

@@ -68,6 +68,10 @@ TEST(Pareto, WrongRaysAreBeyondAnyDistance) {
     tally.wrong_strand.count = 6;
     EXPECT_DOUBLE_EQ(wrong_share(tally), 0.01);
     EXPECT_EQ(ranking_error(comparison), 0.03);
+    tally.agreed_misses = 500;  // background makes nobody better
+    EXPECT_DOUBLE_EQ(wrong_share(tally), 0.02);
+    EXPECT_EQ(ranking_error(comparison), infinity);
+    tally.agreed_misses = 0;
     tally.nan.count = 1;
     EXPECT_EQ(ranking_error(comparison), infinity);
     comparison.hit_or_miss_only = true;

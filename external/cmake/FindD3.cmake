@@ -1,0 +1,28 @@
+# The modules of D3 that reports use, from Debian's node-d3-zoom and what it depends on. Defines D3_SCRIPTS, in
+# the order in which they need each other, and D3_VERSION (of d3-zoom).
+set(D3_SCRIPTS "")
+set(D3_MISSING "")
+foreach(module dispatch selection drag color interpolate timer ease transition zoom)
+  set(script D3_${module}_SCRIPT)
+  find_file(${script} d3-${module}/dist/d3-${module}.min.js PATHS /usr/share/nodejs /usr/lib/node_modules
+            /usr/local/lib/node_modules NO_DEFAULT_PATH)
+  find_file(${script} d3-${module}/dist/d3-${module}.min.js PATH_SUFFIXES share/nodejs lib/node_modules)
+  mark_as_advanced(${script})
+  if(${script})
+    list(APPEND D3_SCRIPTS ${${script}})
+  else()
+    list(APPEND D3_MISSING d3-${module})
+  endif()
+endforeach()
+set(D3_COMPLETE TRUE)
+if(D3_MISSING)
+  set(D3_COMPLETE FALSE)
+else()
+  file(STRINGS ${D3_zoom_SCRIPT} first_line LIMIT_COUNT 1)
+  string(REGEX MATCH "v([0-9.]+)" version "${first_line}")
+  set(D3_VERSION "${CMAKE_MATCH_1}")
+endif()
+# Seen wherever the package was asked for.
+set(D3_SCRIPTS "${D3_SCRIPTS}" CACHE INTERNAL "scripts of D3")
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(D3 REQUIRED_VARS D3_COMPLETE VERSION_VAR D3_VERSION)

@@ -1,0 +1,66 @@
+// What pictures lose when the hair is farther away.
+#include "report/html/charts.h"
+#include "report/html/plot.h"
+#include "report/row_fields.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace strandlab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr PlotArea area{54, 40, 374, 254};
+
+struct Sample {
+    double scale, value;
+};
+
+std::vector<Sample> samples_of(const Json& row, const std::string& figure) {
+    std::vector<Sample> samples;
+    const Json* list = field_at(row, "distances");
+    if (!list || !list->is_array()) return samples;
+    for (const Json& item : *list) {
+        const Sample sample{number_or_nan(item, "scale"), std::abs(number_or_nan(item, figure))};
+        if (sample.scale > 0 && std::isfinite(sample.scale) && sample.value > 0 &&
+            std::isfinite(sample.value))
+            samples.push_back(sample);
+    }
+    std::sort(samples.begin(), samples.end(),
+              [](const Sample& a, const Sample& b) { return a.scale < b.scale; });
+    return samples;
+}
+
+}  // namespace
+
+std::optional<Drawing> distance_chart(const ChartRows& data, const RowGroup& group, const std::string& figure,
+                                      const std::string& title) {
+    std::vector<std::pair<size_t, std::vector<Sample>>> lines;
+    std::vector<double> scales, values;
+    std::vector<size_t> members;
+    for (const size_t i : group.all()) {
+        std::vector<Sample> samples = samples_of(data.rows[i], figure);
+        if (samples.empty()) continue;
+        for (const Sample& sample : samples) scales.push_back(sample.scale), values.push_back(sample.value);
+        members.push_back(i);
+        lines.emplace_back(i, std::move(samples));
+    }
+    if (lines.empty()) return std::nullopt;
+    Drawing drawing(390, 300, fmt::format("{}: {}", title, group.title()));
+    draw_legend(drawing, data.rows, members, area.left, 14);
+    const LogAxis x(scales, area.left + 8, area.right - 8), y(values, area.bottom - 8, area.top + 8);
+    draw_grid(drawing, area, x, y);
+    for (const auto& [row, samples] : lines) {
+        std::vector<LinePoint> points;
+        for (const Sample& sample : samples) points.push_back({x.at(sample.scale), y.at(sample.value)});
+        draw_line(drawing, series_of(data.rows[row]), points, row);
+    }
+    draw_axes(drawing, area, "distance, times that of the picture", title);
+    return drawing;
+}
+
+}  // namespace strandlab
