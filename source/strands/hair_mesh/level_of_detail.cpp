@@ -11,7 +11,8 @@
 namespace strandlab {
 namespace {
 
-double root_area(const HairMesh& mesh, const HairMeshFace& face) {
+/// Twice the area of a face's root, in the mesh's units.
+double doubled_root_area(const HairMesh& mesh, const HairMeshFace& face) {
     const auto at = [&](uint32_t k) { return mesh.positions[face.vertex[k]]; };
     double area = glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
     if (!face.is_triangle()) area += glm::length(glm::cross(at(2) - at(0), at(3) - at(0)));
@@ -76,9 +77,15 @@ double detail_at(double size, double distance, double fov_degrees, double height
     return detail < 1 ? std::max(detail, 1e-6) : 1;
 }
 
+double bundle_size(const HairMesh& mesh) {
+    double sum = 0;
+    for (const HairMeshFace& face : mesh.faces) sum += mesh.unit() * std::sqrt(0.5 * doubled_root_area(mesh, face));
+    return sum / double(mesh.faces.size());
+}
+
 std::vector<BundleCount> bundle_counts(const HairMesh& mesh, uint64_t strands, uint32_t seed, double lod) {
     std::vector<double> areas;
-    for (const HairMeshFace& face : mesh.faces) areas.push_back(root_area(mesh, face));
+    for (const HairMeshFace& face : mesh.faces) areas.push_back(doubled_root_area(mesh, face));
     const std::vector<uint32_t> full = apportioned(areas, strands);
     std::vector<BundleCount> counts(full.size());
     for (uint32_t f = 0; f < full.size(); ++f) {

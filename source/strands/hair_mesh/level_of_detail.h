@@ -24,6 +24,9 @@ LevelOfDetail level_of_detail(const Parameters& parameters);
 /// (2 distance tan(fov / 2)), at most 1 (Bhokare et al. 2024, Eq. 7, with the half angle).
 double detail_at(double size, double distance, double fov_degrees, double height_pixels, double factor);
 
+/// Size of a bundle at its root, metres: the mean over the faces of the root of their area.
+double bundle_size(const HairMesh& mesh);
+
 /// Strands of one bundle.
 struct BundleCount {
     uint32_t full = 0;    // at full detail
