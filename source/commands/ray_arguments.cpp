@@ -5,8 +5,10 @@
 #include "commands/arguments.h"
 #include "commands/hit_files.h"
 #include "commands/usage_error.h"
+#include "trace/occluder.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace strandlab {
 namespace {
@@ -57,6 +59,11 @@ RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& a
     // The light stands over the camera's right shoulder.
     const Camera camera = needs_camera ? camera_of(scene, arguments, size) : Camera{};
     const PictureSize picture{size.width, size.height, 1};
+    std::optional<Occluder> occluder;
+    if (!scene.occluder.empty()) occluder.emplace(scene.occluder);
+    const auto cut = [&](Rays& rays) {
+        if (occluder) occluder->cut(rays.rays);
+    };
     Rays primary;
     Reference primary_reference;
     for (const std::string& name : arguments.names) {
@@ -72,6 +79,7 @@ RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& a
             const RaySetInfo& info = ray_set_named(name);
             if (info.needs_primary_hits && primary.rays.empty()) {
                 primary = primary_rays(camera, picture, arguments.seed);
+                cut(primary);
                 primary_reference = make_scene_reference(scene, common, curves, primary.rays);
             }
             set.rays = make_rays(info, {curves,
@@ -83,6 +91,7 @@ RaySets::RaySets(const Scene& scene, const Curves& curves, const RayArguments& a
                                         {primary.rays, primary_reference.hits}});
             set.shadow = info.name == "shadow";
         }
+        cut(set.rays);
         set.sample = error_sample(set.rays.rays.size(), arguments.error_rays);
         set.sample_rays = selected(set.rays, set.sample);
         set.common = make_scene_reference(scene, common, curves, set.sample_rays);

@@ -123,7 +123,7 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
             reader.reject("not JSON: {}", error.what());
         }
     }();
-    reader.allow_keys(file, "the scene", {"models", "instances"});
+    reader.allow_keys(file, "the scene", {"models", "instances", "occluder"});
     if (!file.contains("models") || !file["models"].is_array() || file["models"].empty())
         reader.reject("needs \"models\", a list of at least one");
     Scene scene;
@@ -142,6 +142,8 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
             const std::string where = fmt::format("instances[{}]", scene.instances.size());
             scene.instances.push_back(reader.instance(entry, where, scene.models.size()));
         }
+    if (file.contains("occluder"))
+        scene.occluder = load_obj(ByteSource::from_file(reader.path_in(file, "the scene", "occluder")));
     return scene;
 }
 
