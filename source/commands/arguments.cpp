@@ -24,7 +24,9 @@ Basis basis_named(const std::string& name) {
 
 void ModelArguments::add_to(CLI::App& app, bool required) {
     CLI::Option* option = app.add_option(
-        "MODEL", models, "model file (.hair, .tfx, .data, .npy), scene (.json) or generate:NAME,...");
+        "MODEL", models,
+        "model file (.hair, .tfx, .data, .npy), FILE.hairmesh[,key=value,...], scene (.json) or "
+        "generate:NAME,...");
     if (required) option->required();
     app_ = &app;
     app.add_option("--basis", basis, "how points become curves: centripetal, uniform, linear, bspline")

@@ -21,6 +21,7 @@ struct Command {
 Command bench_command();
 Command compare_command();
 Command convert_command();
+Command generate_command();
 Command info_command();
 Command render_command();
 Command report_command();

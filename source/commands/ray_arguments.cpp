@@ -5,6 +5,7 @@
 #include "commands/arguments.h"
 #include "commands/hit_files.h"
 #include "commands/usage_error.h"
+#include "trace/occluder.h"
 
 #include <algorithm>
 #include <optional>
@@ -81,12 +82,15 @@ class RaySets::Maker {
           curves_(curves),
           arguments_(arguments),
           size_{size.width, size.height, 1},
-          common_(common_surfaces(scene, caps)) {}
+          common_(common_surfaces(scene, caps)) {
+        if (!scene.occluder.empty()) occluder_.emplace(scene.occluder);
+    }
 
     MeasuredRays make(const std::string& text) {
         const RayName name(text, arguments_.shuffle);
         MeasuredRays set = name.is_file ? from_file(name) : from_table(name);
         set.shuffled = name.shuffled;
+        cut(set.rays);
         set.sample = error_sample(set.rays.rays.size(), arguments_.error_rays);
         set.sample_rays = selected(set.rays, set.sample);
         set.common = make_scene_reference(scene_, common_, curves_, set.sample_rays);
@@ -115,6 +119,7 @@ class RaySets::Maker {
         if (!camera_) camera_ = camera_of(scene_, arguments_, {size_.width, size_.height});
         if (info.needs_primary_hits && primary_.rays.empty()) {
             primary_ = primary_rays(*camera_, size_, arguments_.seed);
+            cut(primary_);
             primary_hits_ = make_scene_hits(scene_, common_, primary_.rays);
         }
         MeasuredRays set;
@@ -133,11 +138,17 @@ class RaySets::Maker {
         return set;
     }
 
+    /// The body under the hair ends rays, the same for every primitive.
+    void cut(Rays& rays) const {
+        if (occluder_) occluder_->cut(rays.rays);
+    }
+
     const Scene& scene_;
     const Curves& curves_;
     const RayArguments& arguments_;
     PictureSize size_;
     std::vector<Surface> common_;
+    std::optional<Occluder> occluder_;
     std::optional<Camera> camera_;
     Rays primary_;
     std::vector<ReferenceHit> primary_hits_;

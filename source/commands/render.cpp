@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "commands/arguments.h"
 #include "commands/command.h"
+#include "commands/occluder_shading.h"
 #include "commands/ray_arguments.h"
 #include "commands/usage_error.h"
 #include "report/images.h"
@@ -17,7 +18,7 @@ struct Options {
     ModelArguments models;
     PrimitiveArguments primitive;
     DeviceArguments device;
-    std::string output, resolution = "960x540", camera;
+    std::string output, resolution = "960x540", camera, occluder;
     uint32_t samples = 4;
     uint64_t seed = 1;
     bool no_shadows = false;
@@ -25,7 +26,7 @@ struct Options {
 
 /// 1 where a primary hit sees the light: one value per primary ray.
 std::vector<float> light_visible(const TracedScene& scene, const Rays& primary, const TraceResult& trace,
-                                 const Curves& curves, const glm::dvec3& to_light) {
+                                 const Curves& curves, const glm::dvec3& to_light, const Occluder& occluder) {
     std::vector<float> visible(primary.rays.size(), 1.0f);
     std::vector<size_t> owner;
     Rays rays;
@@ -40,8 +41,13 @@ std::vector<float> light_visible(const TracedScene& scene, const Rays& primary, 
         const Ray& ray = primary.rays[i];
         // Away from the strand itself by its own width: a picture forgives what a measurement would not.
         const float width = curves.curves[hit.curve][0].w;
-        rays.rays.push_back(
-            {ray.origin + hit.t * ray.direction + 2.0f * width * normal, 0.0f, glm::vec3(to_light), 1e30f});
+        const Ray shadow_ray{ray.origin + hit.t * ray.direction + 2.0f * width * normal, 0.0f,
+                             glm::vec3(to_light), 1e30f};
+        if (occluder.meet(shadow_ray)) {
+            visible[i] = 0;
+            continue;
+        }
+        rays.rays.push_back(shadow_ray);
         owner.push_back(i);
     }
     set_launch_shape(rays);
@@ -63,12 +69,16 @@ int run(const Options& options) {
     const PrimitiveChoice choice = options.primitive.primitives.empty()
                                        ? parse_primitive("rocaps", options.primitive.caps)
                                        : options.primitive.choices().front();
-    const Scene scene = load_scene(options.models.models.front(), options.models.curve_options());
+    Scene scene = load_scene(options.models.models.front(), options.models.curve_options());
+    if (!options.occluder.empty()) scene.occluder = load_obj(ByteSource::from_file(options.occluder));
     if (scene.curve_count() == 0)
         fail(ExitCode::bad_input, "{}: there is no curve to render", options.models.models.front());
     const Curves curves = all_curves(scene);
     const Camera camera = camera_of(scene, ray_arguments, size);
-    const Rays rays = primary_rays(camera, {size.width, size.height, options.samples}, options.seed);
+    const Rays whole_rays = primary_rays(camera, {size.width, size.height, options.samples}, options.seed);
+    const Occluder occluder(scene.occluder);
+    Rays rays = whole_rays;
+    occluder.cut(rays.rays);
     const TraceDevice device({options.device.device, options.device.validation});
     CaseInput input{device, scene, curves, 1, 0, {}};
     input.options.normals = true;
@@ -81,9 +91,13 @@ int run(const Options& options) {
     shading.samples = options.samples;
     shading.to_light = world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7)));
     std::vector<float> visible;
-    if (!options.no_shadows) visible = light_visible(*prepared.traced, rays, trace, curves, shading.to_light);
+    if (!options.no_shadows)
+        visible = light_visible(*prepared.traced, rays, trace, curves, shading.to_light, occluder);
+    std::vector<glm::vec3> behind;
+    if (!scene.occluder.empty())
+        behind = occluder_colours(occluder, whole_rays, *prepared.traced, shading, !options.no_shadows);
     device.check_validation();
-    write_image(options.output, shade(rays, trace.hits, curves, shading, visible));
+    write_image(options.output, shade(rays, trace.hits, curves, shading, visible, behind));
     inform("{}: {} x {}, {} samples a pixel, {}", options.output, size.width, size.height, options.samples,
            choice.label());
     return 0;
@@ -113,6 +127,8 @@ Command render_command() {
                 app.add_option("--seed", options->seed, "of the places in a pixel")
                     ->capture_default_str()
                     ->check(whole_number(0, ~uint64_t(0)));
+                app.add_option("--occluder", options->occluder,
+                               "body that hides hair behind it: triangles, .obj (models/head.obj)");
                 app.add_flag("--no-shadows", options->no_shadows, "light goes through hair (faster)");
                 return [options] { return run(*options); };
             }};

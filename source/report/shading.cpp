@@ -128,10 +128,11 @@ struct Layers {
 }  // namespace
 
 Image shade(const Rays& rays, const Hits& hits, const Curves& curves, const ShadingOptions& options,
-            std::span<const float> light_visible) {
+            std::span<const float> light_visible, std::span<const glm::vec3> behind) {
     const size_t count = size_t(options.width) * options.height;
     assert(rays.rays.size() == count * options.samples && hits.hits.size() == rays.rays.size());
     assert(hits.normals.empty() || hits.normals.size() == hits.hits.size());
+    assert(behind.empty() || behind.size() == rays.rays.size());
     assert(light_visible.empty() || light_visible.size() == rays.rays.size());
     Image image;
     image.width = options.width;
@@ -149,7 +150,7 @@ Image shade(const Rays& rays, const Hits& hits, const Curves& curves, const Shad
         Pixel pixel;
         for (size_t i = p * options.samples; i < (p + 1) * options.samples; ++i) {
             if (!is_hit(i)) {
-                pixel.colour += background;
+                pixel.colour += behind.empty() || std::isnan(behind[i].x) ? background : behind[i];
                 continue;
             }
             const glm::vec3* normal = hits.normals.empty() ? nullptr : &hits.normals[i];

@@ -32,8 +32,9 @@ struct ShadingOptions {
 ///   - each strand in its own brightness and warmth, from a hash of its number and of its root's place,
 /// over a soft gradient. Layers besides R, G, B: depth.Z (ray parameter), normal.X/Y/Z, u (curve
 /// parameter), id.curve, id.strand (0xFFFFFFFF: none) of the nearest sample that hit, and mask (number of
-/// samples that hit). A hit whose curve is not in curves counts as a miss.
+/// samples that hit). A hit whose curve is not in curves counts as a miss. Where a ray misses, behind[i]
+/// (unless empty or NaN) is seen instead of the gradient.
 Image shade(const Rays& rays, const Hits& hits, const Curves& curves, const ShadingOptions& options,
-            std::span<const float> light_visible = {});
+            std::span<const float> light_visible = {}, std::span<const glm::vec3> behind = {});
 
 }  // namespace strandlab

@@ -80,6 +80,7 @@ uint64_t hash(const Scene& scene) {
         sum.add_number(instance.model);
         sum.add(&instance.world_from_object, sizeof instance.world_from_object);
     }
+    if (!scene.occluder.empty()) sum.add(std::span<const Triangle>(scene.occluder));
     return sum.value();
 }
 

@@ -1,6 +1,7 @@
 // A scene: models and their instances, before any primitive has touched them.
 #pragma once
 
+#include "scene/obj_file.h"
 #include "strands/curves.h"
 #include "strands/strands.h"
 
@@ -24,6 +25,7 @@ struct Scene {
     std::string name;
     std::vector<Curves> models;
     std::vector<SceneInstance> instances;
+    std::vector<Triangle> occluder;  // an opaque body in world space: rays end at it (trace/occluder.h)
 
     uint32_t first_curve(uint32_t model) const;
     size_t curve_count() const;   // of all models
@@ -52,9 +54,11 @@ uint64_t hash(const Scene& scene);
 /// A model file, a generator ("generate:..."), or a scene file (.json):
 ///
 ///     {"models": [{"file": "a.hair", "radius": 4e-5, "radius_tip": 1e-5, "unit_scale": 0.01}, ...],
-///      "instances": [{"model": 0, "transform": [12 numbers, three rows of four]}, ...]}
+///      "instances": [{"model": 0, "transform": [12 numbers, three rows of four]}, ...],
+///      "occluder": "head.obj"}
 ///
-/// Paths are relative to the scene file; without "instances" every model stands once, not moved. Per-model
+/// Paths are relative to the scene file; without "instances" every model stands once, not moved. The occluder
+/// ends rays and is not moved. Per-model
 /// values override the options. Warnings (what was passed over) go to the log. Errors: bad_input.
 Scene load_scene(const std::string& path, const CurveOptions& options, const std::string& strands_path = {});
 

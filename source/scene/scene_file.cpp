@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "scene/scene.h"
+#include "strands/hair_mesh/model.h"
 #include "strands/models.h"
 
 #include <nlohmann/json.hpp>
@@ -122,7 +123,7 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
             reader.reject("not JSON: {}", error.what());
         }
     }();
-    reader.allow_keys(file, "the scene", {"models", "instances"});
+    reader.allow_keys(file, "the scene", {"models", "instances", "occluder"});
     if (!file.contains("models") || !file["models"].is_array() || file["models"].empty())
         reader.reject("needs \"models\", a list of at least one");
     Scene scene;
@@ -141,6 +142,8 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
             const std::string where = fmt::format("instances[{}]", scene.instances.size());
             scene.instances.push_back(reader.instance(entry, where, scene.models.size()));
         }
+    if (file.contains("occluder"))
+        scene.occluder = load_obj(ByteSource::from_file(reader.path_in(file, "the scene", "occluder")));
     return scene;
 }
 
@@ -149,8 +152,10 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
 Scene load_scene(const std::string& path, const CurveOptions& options, const std::string& strands_path) {
     if (std::filesystem::path(path).extension() == ".json") return load_scene_file(path, options);
     const bool generated = path.rfind("generate:", 0) == 0;
-    return scene_of(generated ? path.substr(9) : std::filesystem::path(path).stem().string(),
-                    load_and_warn(path, options, strands_path));
+    const std::string name = generated                 ? path.substr(9)
+                             : is_hair_mesh_spec(path) ? hair_mesh_name(path)
+                                                       : std::filesystem::path(path).stem().string();
+    return scene_of(name, load_and_warn(path, options, strands_path));
 }
 
 }  // namespace strandlab

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "strands/generators.h"
+#include "strands/hair_mesh/model.h"
 
 #include <algorithm>
 #include <optional>
@@ -50,7 +51,8 @@ const ModelFormat& format_of(const std::string& path, bool to_write) {
         known.push_back(format.extension);
     }
     fail(ExitCode::bad_input, "{}: extension '{}' cannot be {}; it must be {}{}", path, extension,
-         to_write ? "written" : "read", list_of(known), to_write ? "" : ", or the model generate:NAME,...");
+         to_write ? "written" : "read", list_of(known),
+         to_write ? "" : ", FILE.hairmesh[,key=value,...] or the model generate:NAME,...");
 }
 
 }  // namespace
@@ -67,12 +69,12 @@ const std::vector<ModelFormat>& model_formats() {
 
 Curves load_model(const std::string& path, const CurveOptions& options, ImportReport& report,
                   const std::string& strands_path) {
-    const bool generated = is_generator_spec(path);
+    const bool is_mesh = is_hair_mesh_spec(path), generated = is_mesh || is_generator_spec(path);
     const ModelFormat* format = generated ? nullptr : &format_of(path, false);
     if (!strands_path.empty() && !(format && format->takes_strands))
         fail(ExitCode::usage, "{}: a strands file ({}) goes with .npy curves only", path, strands_path);
     if (generated) {
-        Curves curves = generate(path);
+        Curves curves = is_mesh ? load_hair_mesh_model(path) : generate(path);
         apply_options(curves, options, report);
         return curves;
     }

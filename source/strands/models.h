@@ -30,8 +30,8 @@ struct ModelFormat {
 /// All formats, in the order of their names.
 const std::vector<ModelFormat>& model_formats();
 
-/// Loads a model. The path may be "generate:NAME,key=value,..." (strands/generators.h); otherwise the
-/// extension, in any case, decides. strands_path names the strands of an .npy file. The report says what
+/// Loads a model. The path may be "generate:NAME,key=value,..." (strands/generators.h) or
+/// "FILE.hairmesh,key=value,..." (strands/hair_mesh/model.h); otherwise the extension, in any case, decides. strands_path names the strands of an .npy file. The report says what
 /// was passed over. Throws Error (bad_input; usage for a wrong specification or option) in one line.
 Curves load_model(const std::string& path, const CurveOptions& options, ImportReport& report,
                   const std::string& strands_path = {});

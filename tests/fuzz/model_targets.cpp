@@ -1,6 +1,7 @@
 #include "fuzz/model_targets.h"
 
 #include "fuzz/load_bytes.h"
+#include "fuzz/load_hair_mesh_bytes.h"
 #include "fuzz/samples.h"
 
 namespace strandlab::fuzz {
@@ -31,6 +32,9 @@ std::vector<std::string> seeds() {
 }  // namespace
 
 FuzzTarget hair_target() { return {"hair", run<hair>, seeds<hair>}; }
+FuzzTarget hairmesh_target() {
+    return {"hairmesh", [](Bytes input) { load_hair_mesh_bytes(input); }, samples::hair_meshes};
+}
 FuzzTarget tfx_target() { return {"tfx", run<tfx>, seeds<tfx>}; }
 FuzzTarget data_target() { return {"data", run<data>, seeds<data>}; }
 FuzzTarget npy_target() { return {"npy", run<npy>, seeds<npy>}; }

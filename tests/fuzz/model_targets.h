@@ -6,6 +6,7 @@
 namespace strandlab::fuzz {
 
 FuzzTarget hair_target();
+FuzzTarget hairmesh_target();
 FuzzTarget tfx_target();
 FuzzTarget data_target();
 FuzzTarget npy_target();

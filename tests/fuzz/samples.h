@@ -113,6 +113,27 @@ inline std::vector<Sample> all() {
     };
 }
 
+/// Hair meshes as the writer writes them: a quad and two triangles over 2 x 2 cm, three points a column.
+inline std::vector<std::string> hair_meshes() {
+    const std::string header = "strandlab hairmesh 1\n# A patch.\n# Two lines.\nname patch\nunit mm\n";
+    const std::string layers =
+        "layer 0\n0 0 0\n20 0 0\n20 0 -20\n0 0 -20\n"
+        "layer 1\n0 30.5 2\n20 30 2\n22 30 -20\n0 31 -22\n"
+        "layer 2\n0 60 4\n21 60 3\n22 59 -18\n1 60 -24\n";
+    const std::string uv = "uv\n0 0\n20 0\n20 20\n0 20\n";
+    const std::string with_w =
+        "layer 0\n0 0 0 0\n20 0 0 0\n20 0 -20 0\n0 0 -20 0\n"
+        "layer 1\n0 30.5 2 31\n20 30 2 31\n22 30 -20 31\n0 31 -22 31\n";
+    return {
+        header +
+            "vertices 4\nlayers 2\nfaces 1\nstyle points=9 clump=0.5 curl=0.002 noise=0.001 frizz=0.001\n" +
+            uv + "faces\nq 0 1 2 3\n" + layers,
+        header + "vertices 4\nlayers 2\nfaces 2\nframes layer\nstyle points=0\n" + uv +
+            "faces\nt 0 1 2\nt 0 2 3\n" + layers,
+        header + "vertices 4\nlayers 1\nfaces 1\n" + uv + "faces\nq 0 1 2 3\n" + with_w,
+    };
+}
+
 inline std::span<const std::byte> as_bytes(std::string_view text) {
     return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
 }
