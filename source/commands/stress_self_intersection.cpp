@@ -83,19 +83,20 @@ nlohmann::ordered_json to_json(const Cell& cell, uint64_t seed) {
     return object;
 }
 
-void add_chunk(const StressChunk& chunk, std::span<Cell> cells) {
+void add_chunk(const StressChunk& chunk, std::span<Cell> cells, std::span<PipelineStore> pipelines) {
     const Primitive& primitive = *chunk.choice.primitive;
     const StressRange& range = chunk.pairs.range;
     const std::vector<SpawnPoint> points =
         spawn_points(primitive, chunk.geometry, chunk.surface, chunk.pairs);
-    for (Cell& cell : cells) {
+    for (size_t d = 0; d < cells.size(); ++d) {
+        Cell& cell = cells[d];
         const Device* gpu = cell.device->gpu();
         if (gpu == nullptr) {
             add_spawned(primitive, chunk.geometry, chunk.surface, range, points, cell.tally);
             continue;
         }
         // The rays start near the strands, whose boxes know their own size.
-        const PairScene scene(*gpu, primitive, chunk.geometry, range, 0);
+        const PairScene scene(*gpu, primitive, chunk.geometry, range, 0, &pipelines[d]);
         add_spawned(scene, primitive, chunk.surface, range, points, cell.tally);
     }
 }
@@ -112,8 +113,10 @@ int run_self_intersection(const StressRun& run) {
         for (const PrimitiveChoice& choice : run.choices)
             for (const auto& device : run.devices) cells.push_back({family, &choice, device.get(), {}, {}});
     const size_t devices = run.devices.size();
+    std::vector<PipelineStore> pipelines(devices);
     for_each_chunk(run, "self-intersection", [&](size_t family, size_t choice, const StressChunk& chunk) {
-        add_chunk(chunk, std::span(cells).subspan((family * run.choices.size() + choice) * devices, devices));
+        add_chunk(chunk, std::span(cells).subspan((family * run.choices.size() + choice) * devices, devices),
+                  pipelines);
     });
     bool fails = false;
     std::string lines;

@@ -70,10 +70,17 @@ void count_outcomes(const ComparisonInput& input, std::span<const Judged> judged
     }
 }
 
+/// The bin of Percentiles::decades for a value; the logarithm of 0 is clamped like every small one.
+size_t decade_of(double value) {
+    constexpr double low = Percentiles::first_decade - 1, high = Percentiles::last_decade;
+    return static_cast<size_t>(std::clamp(std::floor(std::log10(value)), low, high) - low);
+}
+
 /// Percentiles of values, whose order changes.
 Percentiles percentiles_of(std::vector<float>& values) {
     Percentiles result;
     result.count = values.size();
+    for (const float value : values) ++result.decades[decade_of(double(value))];
     if (values.empty()) return result;
     // From the top down, each selection leaves the smaller values before it for the next.
     auto end = values.end();

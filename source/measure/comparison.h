@@ -29,6 +29,10 @@ struct Percentiles {
     uint64_t count = 0;  // rays that the measure exists for
     double p50 = 0, p95 = 0, p99 = 0, p999 = 0, max = 0;
     size_t worst_ray = Count::no_ray;  // the first ray with the largest value
+
+    /// How many values lie below 1e-9, in each decade from there, and from 1e3 on.
+    static constexpr int first_decade = -9, last_decade = 3;
+    std::array<uint64_t, last_decade - first_decade + 2> decades{};
 };
 
 /// One group of rays. Every ray is counted in exactly one of: agreed misses, matches, nan, false_hit,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 namespace strandlab {
 
@@ -41,13 +42,20 @@ class LogHistogram {
         return above;
     }
 
-  private:
-    static constexpr size_t bins = 120 * 32;
+    static constexpr int first_octave = -60, last_octave = 60;
+    /// How many values lie in [2^exponent, 2^(exponent + 1)); the outer octaves also hold what lies beyond.
+    uint64_t octave(int exponent) const {
+        const auto first = counts_.begin() + std::ptrdiff_t(exponent - first_octave) * 32;
+        return std::accumulate(first, first + 32, uint64_t(0));
+    }
 
-    static double edge(size_t bin) { return std::exp2(static_cast<double>(bin) / 32 - 60); }
+  private:
+    static constexpr size_t bins = (last_octave - first_octave) * 32;
+
+    static double edge(size_t bin) { return std::exp2(static_cast<double>(bin) / 32 + first_octave); }
     static size_t bin_of(double value) {
         if (!(value > 0)) return 0;
-        const double place = std::floor((std::log2(value) + 60) * 32);
+        const double place = std::floor((std::log2(value) - first_octave) * 32);
         return static_cast<size_t>(std::clamp(place, 0.0, double(bins - 1)));
     }
 

@@ -140,12 +140,9 @@ std::string_view undefined_disc(const StressFamily& family) {
     return {};
 }
 
-/// Families whose double version is known to be exact to this share of the radius.
-bool is_ordinary(std::string_view figures) {
-    for (const std::string_view name : {"gentle", "curl", "r/L=1e-2", "r/L=1e-3", "offset 1e4"})
-        if (figures == name) return true;
-    return false;
-}
+/// |dt| / r at 99 % that the double versions of lss and rocaps keep: what float loses is rounding. A position
+/// is known to 1e-16 lengths.
+double double_distance(const StressFamily& family) { return family.figures == "r/L=1e-5" ? 3e-10 : 1e-10; }
 
 struct Findings {
     std::string text;
@@ -174,7 +171,8 @@ std::optional<StressLimits> stress_limits(std::string_view primitive, const Stre
         StressLimits limits = row.limits;
         const std::string_view undefined = primitive == "prhi" ? undefined_disc(family) : std::string_view{};
         if (!undefined.empty()) limits.judged = false, limits.reason = undefined;
-        if (precise && primitive != "prhi" && is_ordinary(family.figures)) limits.p50 = limits.p99 = 1e-10;
+        if (precise && (primitive == "lss" || primitive == "rocaps"))
+            limits.p50 = limits.p99 = double_distance(family);
         return limits;
     }
     return std::nullopt;

@@ -20,7 +20,7 @@ struct StressLimits {
 
 /// The documented figures of a primitive, whatever its variant: variants are held to what is known to be
 /// possible, so that published ones fail where they are known to. precise: the double version, which has
-/// the same rates and, on ordinary hair, a p99 of 1e-10 radii. Nothing for primitives without figures.
+/// the same rates and, of lss and rocaps, a p99 of 1e-10 radii. Nothing for primitives without figures.
 std::optional<StressLimits> stress_limits(std::string_view primitive, const StressFamily& family,
                                           bool precise);
 

@@ -40,8 +40,8 @@ bool ends_with_any(std::string_view text, std::span<const std::string_view> ends
 
 /// Whether a value has a column.
 bool is_column(std::string_view path) {
-    constexpr std::array<std::string_view, 2> single_rays{".first_ray", ".worst_ray"};
-    if (ends_with_any(path, single_rays)) return false;
+    constexpr std::array<std::string_view, 3> details{".first_ray", ".worst_ray", ".decades"};
+    if (ends_with_any(path, details)) return false;
     const bool in_other_group = contains(path, "_error.all.") || contains(path, "_error.on_cap.") ||
                                 contains(path, "_error.inside.") || contains(path, "_error.inside_own.");
     if (!in_other_group) return true;

@@ -48,7 +48,7 @@ Json to_json(const Percentiles& p) {
     if (p.count == 0) return {};
     return {{"count", p.count},          {"p50", json_number(p.p50)},   {"p95", json_number(p.p95)},
             {"p99", json_number(p.p99)}, {"p999", json_number(p.p999)}, {"max", json_number(p.max)},
-            {"worst_ray", p.worst_ray}};
+            {"worst_ray", p.worst_ray},  {"decades", p.decades}};
 }
 
 Json to_json(const Tally& tally) {

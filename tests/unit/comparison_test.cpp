@@ -249,6 +249,7 @@ TEST(Comparison, PercentilesAreExact) {
     EXPECT_EQ(p.p999, 9989);
     EXPECT_EQ(p.max, 9999);
     EXPECT_EQ(p.worst_ray * 7919 % 10000, 9999u);
+    EXPECT_EQ(p.decades, (decltype(p.decades){1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 90, 900, 9000}));
 }
 
 TEST(Comparison, NoRays) {

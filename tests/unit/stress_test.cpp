@@ -184,6 +184,12 @@ TEST(LogHistogram, QuantilesAreTheValuesAlmost) {
     EXPECT_EQ(histogram.quantile(0), 0);
     histogram.add(1e300);
     EXPECT_EQ(histogram.max(), 1e300);
+    EXPECT_EQ(histogram.octave(59), 1u);
+    EXPECT_EQ(histogram.octave(-60), 1u);   // the 0
+    EXPECT_EQ(histogram.octave(-10), 24u);  // 977 to 1000 of a million
+    uint64_t sum = 0;
+    for (int e = LogHistogram::first_octave; e < LogHistogram::last_octave; ++e) sum += histogram.octave(e);
+    EXPECT_EQ(sum, histogram.count());
 }
 
 }  // namespace
