@@ -23,6 +23,7 @@ Command compare_command();
 Command convert_command();
 Command generate_command();
 Command info_command();
+Command lod_command();
 Command render_command();
 Command report_command();
 Command stress_command();

@@ -16,8 +16,9 @@ namespace strandlab {
 namespace {
 
 std::vector<Command> all_commands() {
-    return {bench_command(),    validate_command(), stress_command(), trace_command(),  compare_command(),
-            render_command(),   generate_command(), convert_command(), report_command(), info_command()};
+    return {bench_command(),   validate_command(), stress_command(),   trace_command(),
+            compare_command(), render_command(),   generate_command(), lod_command(),
+            convert_command(), report_command(),   info_command()};
 }
 
 /// Options of every command.

@@ -1,6 +1,8 @@
 #include "scene/scene.h"
 
 #include "base/hash.h"
+#include "base/parallel.h"
+#include "scene/bounds.h"
 
 #include <algorithm>
 
@@ -48,7 +50,44 @@ Curves all_curves(const Scene& scene) {
     return all;
 }
 
+namespace {
+
+/// World points that are worth listing one by one.
+constexpr size_t most_world_points = 200'000'000;
+
+size_t world_point_count(const Scene& scene) {
+    size_t count = 0;
+    for (const SceneInstance& instance : scene.instances)
+        count += 4 * scene.models[instance.model].curves.size();
+    return count;
+}
+
+/// Corners of the box of every instance's model.
+std::vector<glm::vec4> world_corners(const Scene& scene) {
+    std::vector<Box> boxes(scene.models.size());
+    parallel_for(boxes.size(), [&](size_t m) {
+        for (const Curve& curve : scene.models[m].curves)
+            for (const glm::vec4& point : curve) {
+                boxes[m].add(glm::vec3(point) - point.w);
+                boxes[m].add(glm::vec3(point) + point.w);
+            }
+    });
+    std::vector<glm::vec4> points;
+    for (const SceneInstance& instance : scene.instances) {
+        const Box& box = boxes[instance.model];
+        for (int corner = 0; corner < 8 && !box.is_empty(); ++corner) {
+            const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+            points.emplace_back(
+                instance.world_from_object * glm::vec4(glm::mix(box.low, box.high, high), 1.0f), 0.0f);
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
 std::vector<glm::vec4> world_points(const Scene& scene) {
+    if (world_point_count(scene) > most_world_points) return world_corners(scene);
     std::vector<glm::vec4> points;
     for (const SceneInstance& instance : scene.instances) {
         const glm::mat4x3& m = instance.world_from_object;
