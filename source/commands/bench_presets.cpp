@@ -90,6 +90,11 @@ const Preset& preset_named(const std::string& name) {
 /// The bundled models, or those of them that the preset names.
 std::vector<std::string> models_of(const Preset& preset) {
     std::vector<std::string> all = bundled_models();
+    for (std::string& path : all) {  // as the user would write it
+        const std::string near =
+            std::filesystem::path(path).lexically_proximate(std::filesystem::current_path()).string();
+        if (!near.starts_with("..")) path = near;
+    }
     if (preset.models.empty()) return all;
     std::erase_if(all, [&](const std::string& path) {
         const std::string name = std::filesystem::path(path).stem().string();

@@ -11,6 +11,7 @@
 #include "report/result_json.h"
 #include "report/result_table.h"
 #include "report/shading.h"
+#include "strands/models.h"
 #include "trace/embree_reference.h"
 
 #include <algorithm>
@@ -112,7 +113,9 @@ BenchRun::BenchRun(BenchOptions& options)
     resolutions_ = options_.resolutions();
     with_embree_ = embree_available() && !options_.no_embree;
     baseline_ = baseline_index(choices_, options_.baseline_primitive);
-    SweepAxes axes{options_.models.models, {}, options_.rays.set_names(), {}};
+    // Names, not paths: parts of a sweep may run on machines with other folders.
+    SweepAxes axes{{}, {}, options_.rays.set_names(), {}};
+    for (const std::string& model : options_.models.models) axes.models.push_back(model_name(model));
     for (const Resolution& resolution : resolutions_) axes.resolutions.push_back(to_string(resolution));
     for (const PrimitiveChoice& choice : choices_) axes.primitives.push_back(choice.label());
     if (with_embree_) axes.primitives.emplace_back(embree_label);
@@ -154,7 +157,7 @@ void BenchRun::run_model(size_t model) {
     bool wanted = false;
     for (size_t number = first; number < end; ++number) wanted |= is_wanted(number);
     if (!wanted) return;
-    const Scene scene = load_scene(axes_->models[model], curve_options_);
+    const Scene scene = load_scene(options_.models.models[model], curve_options_);
     if (scene.curve_count() == 0) return;
     const Curves curves = all_curves(scene);
     for (size_t i = 0; i < resolutions_.size() && !is_over_budget(); ++i) run_block(model, i, scene, curves);
@@ -176,7 +179,7 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
                 {},
                 {device_, scene, curves, *options_.repeat, warm_up_of(device_.info()), {}},
                 {}};
-    block.facts.spec = axes_->models[model];
+    block.facts.spec = options_.models.models[model];
     for (size_t set = 0; set < wanted.size(); ++set)
         block.ray_facts.push_back(wanted[set] ? ray_facts(block.rays.sets()[set], options_.rays.seed,
                                                           axes_->resolutions[resolution])

@@ -89,8 +89,9 @@ Table empty_table() {
                   {"speed", "Mrays/s"},    {"build", "ms"},       {"memory", "B/curve"},
                   {"input", "B/curve"},    {"tree", "B/curve"},   {"kept", "B/curve"},
                   {"records", "B/curve"},  {"false hit", "%"},    {"false miss", "%"},
-                  {"strand", "%"},         {"dt p50", "radii"},   {"dt p99", "radii"},
-                  {"normal p99", "deg"},   {"own wrong", "rays"}, {"own dt p99", "radii"}});
+                  {"strand", "%"},         {"in own", "rays"},    {"dt p50", "radii"},
+                  {"dt p99", "radii"},     {"normal p99", "deg"}, {"own wrong", "rays"},
+                  {"own dt p99", "radii"}});
 }
 
 std::string heading(const Json& first, const Json* measured) {

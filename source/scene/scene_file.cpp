@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "scene/scene.h"
-#include "strands/hair_mesh/model.h"
 #include "strands/models.h"
 
 #include <nlohmann/json.hpp>
@@ -151,11 +150,7 @@ Scene load_scene_file(const std::string& path, const CurveOptions& options) {
 
 Scene load_scene(const std::string& path, const CurveOptions& options, const std::string& strands_path) {
     if (std::filesystem::path(path).extension() == ".json") return load_scene_file(path, options);
-    const bool generated = path.rfind("generate:", 0) == 0;
-    const std::string name = generated                 ? path.substr(9)
-                             : is_hair_mesh_spec(path) ? hair_mesh_name(path)
-                                                       : std::filesystem::path(path).stem().string();
-    return scene_of(name, load_and_warn(path, options, strands_path));
+    return scene_of(model_name(path), load_and_warn(path, options, strands_path));
 }
 
 }  // namespace strandlab

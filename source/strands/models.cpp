@@ -6,6 +6,7 @@
 #include "strands/hair_mesh/model.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 namespace strandlab {
@@ -65,6 +66,11 @@ const std::vector<ModelFormat>& model_formats() {
         {".tfx", "TressFX 4: polylines", load_polylines<load_tfx>, nullptr},
     };
     return formats;
+}
+
+std::string model_name(const std::string& path) {
+    if (is_generator_spec(path)) return path.substr(path.find(':') + 1);
+    return is_hair_mesh_spec(path) ? hair_mesh_name(path) : std::filesystem::path(path).stem().string();
 }
 
 Curves load_model(const std::string& path, const CurveOptions& options, ImportReport& report,

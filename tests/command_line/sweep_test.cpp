@@ -90,7 +90,7 @@ TEST_F(SweepTest, RunsEveryCombination) {
         EXPECT_EQ(axes.at("primitives").at(number % 4), row.at("primitive").at("label"));
         EXPECT_EQ(axes.at("rays").at(number / 4 % 2), row.at("rays").at("name"));
         EXPECT_EQ(axes.at("resolutions").at(number / 8 % 2), row.at("rays").at("resolution"));
-        EXPECT_EQ(axes.at("models").at(number / 16), row.at("model").at("spec"));
+        EXPECT_EQ(axes.at("models").at(number / 16), row.at("model").at("name"));
         EXPECT_EQ(row.at("time").at("samples_ms").size(), 2u);
         EXPECT_EQ(row.at("time").at("wall_samples_ms").size(), 2u);
         EXPECT_EQ(row.at("time").at("ratio").at("baseline"), "lss:segments=1");

@@ -84,6 +84,13 @@ TEST(ResultTable, HasOneTableForEachRaySetAndMarksFronts) {
     EXPECT_NE(text.find("\nprhi       open*  TM "), std::string::npos) << text;
     EXPECT_NE(text.find("\ndots       open*  T "), std::string::npos) << text;
     EXPECT_NE(text.find("\nlss        round    "), std::string::npos) << text;
+    // Every cell stands below its heading: the last is the intersector's error, which these rows lack.
+    EXPECT_NE(text.find("strand  in own  dt p50  dt p99  normal p99  own wrong  own dt p99\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("       -       0    0.40    0.40           -          -           -\n"),
+              std::string::npos)
+        << text;
     EXPECT_EQ(result_table({}), "");
     EXPECT_FALSE(result_table(std::vector<Json>{Json::object()}).empty());  // a strange row
 }
