@@ -1,6 +1,6 @@
 #include "report/words.h"
 
-#include "primitives/primitive.h"
+#include "report/choices.h"
 #include "report/fronts.h"
 #include "report/row_fields.h"
 #include "report/text_format.h"
@@ -10,20 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace strandlab {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool is_choice(const Json& row) {
-    const std::string name = text_at(row, "primitive.name");
-    const auto found = std::find_if(primitives().begin(), primitives().end(),
-                                    [&](const Primitive& one) { return one.name == name; });
-    return !is_second_opinion(row) && (found == primitives().end() || !found->diagnostic);
-}
 
 std::string label_of(const Json& row) { return text_at(row, "primitive.label"); }
 
@@ -45,39 +37,28 @@ std::string case_text(const Json& row) {
                        error_text(row));
 }
 
-/// The cheapest row by one cost; nullptr where none is within the limit.
-const Json* cheapest(std::span<const Json* const> rows, double (*cost)(const Json&), double limit) {
-    std::vector<TradeOff> cases;
-    for (const Json* row : rows) {
-        const double error = row_error(*row).ranking;
-        cases.push_back({cost(*row), std::isnan(error) ? std::numeric_limits<double>::infinity() : error});
-    }
-    const auto found = cheapest_within(cases, limit);
-    return found ? rows[*found] : nullptr;
-}
-
-std::string sentence(std::span<const Json* const> rows, double limit) {
-    const Json& first = *rows.front();
+std::string sentence(std::span<const Json> rows, const std::vector<size_t>& members, double limit) {
+    const Json& first = rows[members.front()];
     const bool hit_or_miss = row_error(first).hit_or_miss_only;
     std::string text = fmt::format("{}, {} rays {}, {} traversal: ", text_at(first, "model.name"),
                                    text_at(first, "rays.name"), text_at(first, "rays.resolution"),
                                    text_at(first, "device.class"));
     const std::string wanted =
         hit_or_miss ? "at most 1 % wrong" : fmt::format("p99 <= {} r", significant(limit, 2));
-    const bool has_errors = std::any_of(rows.begin(), rows.end(),
-                                        [](const Json* row) { return !std::isnan(row_error(*row).ranking); });
+    const bool has_errors = std::any_of(members.begin(), members.end(),
+                                        [&](size_t i) { return !std::isnan(row_error(rows[i]).ranking); });
     if (!has_errors) return text + "no errors to choose by (not measured, or no ray hits).";
-    const Json* fast = cheapest(rows, row_time, limit);
-    const Json* small = cheapest(rows, row_memory, limit);
-    if (fast != nullptr)
-        text += fmt::format("fastest with {}: {}", wanted, case_text(*fast));
+    const Choices choices = choose(rows, members, limit);
+    if (choices.fastest)
+        text += fmt::format("fastest with {}: {}", wanted, case_text(rows[*choices.fastest]));
     else
         text += fmt::format("none with {}", wanted);
-    if (small != nullptr)
-        text += small == fast ? ", also the smallest" : fmt::format("; smallest: {}", case_text(*small));
-    const Json* fastest = cheapest(rows, row_time, std::numeric_limits<double>::infinity());
-    if (fastest != nullptr && fastest != fast)
-        text += fmt::format("; fastest of all: {}", case_text(*fastest));
+    if (choices.smallest)
+        text += choices.smallest == choices.fastest
+                    ? ", also the smallest"
+                    : fmt::format("; smallest: {}", case_text(rows[*choices.smallest]));
+    if (choices.fastest_of_all && choices.fastest_of_all != choices.fastest)
+        text += fmt::format("; fastest of all: {}", case_text(rows[*choices.fastest_of_all]));
     return text + ".";
 }
 
@@ -85,15 +66,15 @@ std::string sentence(std::span<const Json* const> rows, double limit) {
 
 std::vector<std::string> result_words(std::span<const Json> rows, double limit) {
     std::vector<std::string> order;
-    std::map<std::string, std::vector<const Json*>> groups;
-    for (const Json& row : rows) {
-        if (!is_choice(row)) continue;
-        const std::string group = comparable_group(row);
+    std::map<std::string, std::vector<size_t>> groups;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        if (!is_choice(rows[i])) continue;
+        const std::string group = comparable_group(rows[i]);
         if (!groups.contains(group)) order.push_back(group);
-        groups[group].push_back(&row);
+        groups[group].push_back(i);
     }
     std::vector<std::string> sentences;
-    for (const std::string& group : order) sentences.push_back(sentence(groups[group], limit));
+    for (const std::string& group : order) sentences.push_back(sentence(rows, groups[group], limit));
     return sentences;
 }
 

@@ -57,6 +57,8 @@ std::string nonce_of(const Values& values) {
 PageData::PageData(const MergedResults& merged)
     : results(merged), marks(pareto_fronts(merged.rows)), groups(row_groups(merged.rows)) {}
 
+ChartRows PageData::charts() const { return {results.rows, marks}; }
+
 std::string filled_template(std::string_view text, const Values& values) {
     std::string result;
     for (size_t begin; (begin = text.find("{{")) != std::string_view::npos;) {

@@ -23,7 +23,7 @@ struct PageData {
     std::vector<RowGroup> groups;
 
     explicit PageData(const MergedResults& merged);
-    ChartRows charts() const { return {results.rows, marks}; }
+    ChartRows charts() const;
 };
 
 /// The whole page. It needs no other file and asks the network for nothing, which its content security

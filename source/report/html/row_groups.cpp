@@ -36,7 +36,8 @@ void tell_apart(std::vector<RowGroup>& groups, std::span<const Json> rows, std::
         same[groups[i].scene + '\n' + groups[i].rays + '\n' + groups[i].device + '\n' +
              groups[i].device_class]
             .push_back(i);
-    for (const auto& [names, members] : same) {
+    for (const auto& entry : same) {
+        const std::vector<size_t>& members = entry.second;
         const auto text = [&](size_t i) { return detail(rows[groups[i].members.front()]); };
         const bool differ = std::any_of(members.begin(), members.end(),
                                         [&](size_t i) { return text(i) != text(members[0]); });
