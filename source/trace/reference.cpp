@@ -3,9 +3,11 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "trace/coherent_order.h"
+#include "trace/surface_variation.h"
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace strandlab {
@@ -45,10 +47,45 @@ bool is_nested(const Surface& surface) {
            surface.triangles.empty();
 }
 
+double relative_change(const DecisiveMargin& margin, double size, double radius) {
+    return std::max(margin.radius, margin.ulps * oracle::float_ulp(size) / radius);
+}
+
+/// Mean radius of a piece.
+double mean_radius(const SurfacePiece& piece) {
+    const auto& c = piece.control;
+    const double ends = double(c[0].w) + double(c[3].w);
+    return piece.straight ? ends / 2 : (ends + double(c[1].w) + double(c[2].w)) / 4;
+}
+
+double relative_change(const DecisiveMargin& margin, const SurfaceTriangle& triangle) {
+    double size = 0, radius = 0;
+    for (int i = 0; i < 3; ++i) {
+        const glm::vec3 along = glm::abs(triangle.vertex[i] - triangle.vertex[0]);
+        size = std::max({size, double(along.x), double(along.y), double(along.z)});
+        radius = std::max(radius, double(glm::distance(triangle.vertex[i], triangle.centre[i])));
+    }
+    return relative_change(margin, size, radius);
+}
+
 /// A parameter at which a ray cannot have hit a surface within the one that it enters at `outer`.
 double before(const ReferenceHit& outer) { return outer.t - 1e-9 * outer.t; }
 
 }  // namespace
+
+double relative_margin(const Surface& surface, const DecisiveMargin& margin) {
+    const size_t pieces = surface.pieces.size();
+    std::vector<double> changes(pieces + surface.triangles.size());
+    if (changes.empty()) return margin.radius;
+    parallel_for(changes.size(), [&](size_t i) {
+        changes[i] = i < pieces ? relative_change(margin, oracle::local_size(surface.pieces[i]),
+                                                  mean_radius(surface.pieces[i]))
+                                : relative_change(margin, surface.triangles[i - pieces]);
+    });
+    const auto middle = changes.begin() + static_cast<std::ptrdiff_t>((changes.size() - 1) / 2);
+    std::nth_element(changes.begin(), middle, changes.end());
+    return *middle;
+}
 
 Reference make_reference(const Surface& surface, const Curves& curves, std::span<const Ray> rays,
                          const DecisiveMargin& margin) {
@@ -57,6 +94,7 @@ Reference make_reference(const Surface& surface, const Curves& curves, std::span
     const Oracle oracle(surface, larger);
     const bool nested = is_nested(surface);
     Reference reference;
+    reference.margin = relative_margin(surface, margin);
     reference.hits.resize(rays.size());
     reference.decisive.resize(rays.size());
     reference.decisive_place.resize(rays.size());

@@ -25,7 +25,12 @@ struct Reference {
     std::vector<ReferenceHit> hits;
     std::vector<uint8_t> decisive;
     std::vector<uint8_t> decisive_place;
+    double margin = 0;  // half of the surface's pieces were varied by at most this, relative to their radii
 };
+
+/// The relative change of the radii of half of the surface's pieces that a margin comes to: its own, or more
+/// where the radii are thin beside the ulps of the coordinates. The margin's own for an empty surface.
+double relative_margin(const Surface& surface, const DecisiveMargin& margin = {});
 
 /// What the two variations of the surface say about the hit of a ray.
 struct Decided {

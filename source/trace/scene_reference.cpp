@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 
@@ -32,22 +33,24 @@ static_assert(std::is_trivially_copyable_v<ReferenceHit>);
 
 std::vector<std::byte> packed(const Reference& reference) {
     const size_t count = reference.hits.size(), hit_bytes = count * sizeof(ReferenceHit);
-    std::vector<std::byte> bytes(hit_bytes + 2 * count);
-    if (bytes.empty()) return bytes;
+    std::vector<std::byte> bytes(hit_bytes + 2 * count + sizeof(double));
+    if (count == 0) return {};
     std::memcpy(bytes.data(), reference.hits.data(), hit_bytes);
     std::memcpy(bytes.data() + hit_bytes, reference.decisive.data(), count);
     std::memcpy(bytes.data() + hit_bytes + count, reference.decisive_place.data(), count);
+    std::memcpy(bytes.data() + hit_bytes + 2 * count, &reference.margin, sizeof(double));
     return bytes;
 }
 
 std::optional<Reference> unpacked(const std::vector<std::byte>& bytes, size_t count) {
     const size_t hit_bytes = count * sizeof(ReferenceHit);
-    if (count == 0 || bytes.size() != hit_bytes + 2 * count) return std::nullopt;
+    if (count == 0 || bytes.size() != hit_bytes + 2 * count + sizeof(double)) return std::nullopt;
     Reference reference{std::vector<ReferenceHit>(count), std::vector<uint8_t>(count),
-                        std::vector<uint8_t>(count)};
+                        std::vector<uint8_t>(count), 0};
     std::memcpy(reference.hits.data(), bytes.data(), hit_bytes);
     std::memcpy(reference.decisive.data(), bytes.data() + hit_bytes, count);
     std::memcpy(reference.decisive_place.data(), bytes.data() + hit_bytes + count, count);
+    std::memcpy(&reference.margin, bytes.data() + hit_bytes + 2 * count, sizeof(double));
     return reference;
 }
 
@@ -67,6 +70,8 @@ Reference trace_instances(const Scene& scene, std::span<const Surface> surfaces,
         return SceneOracle(surfaces, instances, options).trace(rays);
     };
     Reference reference;
+    for (const Surface& surface : surfaces)
+        reference.margin = std::max(reference.margin, relative_margin(surface, margin));
     reference.hits = trace({});
     const auto larger = trace({1 + margin.radius, margin.ulps, margin.ends});
     const auto smaller = trace({1 - margin.radius, margin.ulps, -margin.ends});

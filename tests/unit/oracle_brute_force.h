@@ -191,8 +191,9 @@ class Search {
                 peak = minimum(Real(std::max(0, i - 1)) / n, Real(std::min(n, i + 1)) / n,
                                [&](Real u) { return -inside(u); });
                 if (inside(peak) < 0) continue;
-                const Real a = i > 0 ? bisected(Real(i - 1) / n, peak, f) : 0;
-                const Real b = i < n ? bisected(peak, Real(i + 1) / n, f) : 1;
+                // Outside at the sample itself, be it an end.
+                const Real a = bisected(Real(std::max(0, i - 1)) / n, peak, f);
+                const Real b = bisected(peak, Real(std::min(n, i + 1)) / n, f);
                 list.emplace_back(a, b);
                 continue;
             }

@@ -68,6 +68,26 @@ TEST(MakeReference, ShortCutsChangeNothing) {
     EXPECT_GT(inside, 100u);
 }
 
+TEST(MakeReference, TellsTheMarginThatThinStrandsNeed) {
+    Random random(5);
+    Curve curve = random_curve(Family::gentle, random);
+    for (glm::vec4& p : curve) p.w = 1e-3f;
+    const auto margin_of = [&] {
+        return relative_margin(surface_of(curve, Surface::Sweep::sphere, Caps::round));
+    };
+    EXPECT_EQ(margin_of(), 1e-3);
+    for (glm::vec4& p : curve) p.w = 1e-6f;
+    // 8 ulps of a size between 0.25 and 2.
+    EXPECT_GT(margin_of(), 8 * 0x1p-25 / 1e-6 * 0.99);
+    EXPECT_LT(margin_of(), 8 * 0x1p-23 / 1e-6 * 1.01);
+    EXPECT_EQ(
+        make_reference(surface_of(curve, Surface::Sweep::sphere, Caps::round), curves_of(curve), {}).margin,
+        margin_of());
+    for (glm::vec4& p : curve) p.w = 0;
+    EXPECT_GT(margin_of(), 1e300) << "no radius, no margin that would do";
+    EXPECT_EQ(relative_margin(Surface{}), 1e-3);
+}
+
 TEST(CoherentOrder, IsAPermutationWhateverTheRays) {
     std::vector<Ray> rays(10'000);
     for (size_t i = 0; i < rays.size(); ++i) {
