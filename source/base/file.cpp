@@ -160,7 +160,7 @@ bool drop_torn_line(const std::string& path, const std::function<bool(std::strin
     return true;
 }
 
-void append_line(const std::string& path, std::string_view line) {
+void append_line(const std::string& path, std::string_view line, std::string_view first_line) {
     const Descriptor file{::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666)};
     if (file.value < 0) fail_at(path, "append", errno);
     while (::flock(file.value, LOCK_EX) != 0 && errno == EINTR) {
@@ -173,6 +173,7 @@ void append_line(const std::string& path, std::string_view line) {
         fail_at(path, "append", errno);
 
     std::string text(last == '\n' ? "" : "\n");
+    if (regular && status.st_size == 0 && !first_line.empty()) text.append(first_line).append("\n");
     text.append(line).append("\n");
     if (const int error = write_all(file.value, text.data(), text.size())) {
         if (regular && ::ftruncate(file.value, status.st_size) != 0)

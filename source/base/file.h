@@ -49,8 +49,9 @@ void check_appendable(const std::string& path);
 bool drop_torn_line(const std::string& path, const std::function<bool(std::string_view line)>& is_whole);
 
 /// Appends one line (the newline is added) with a single write under a lock, so that rows of several
-/// processes never mix; a last line that lacks its newline is completed first. Creates the file when
-/// missing. On an error the file is as before.
-void append_line(const std::string& path, std::string_view line);
+/// processes never mix; a last line that lacks its newline is completed first. first_line, where there is
+/// one, goes before it into a file that is empty. Creates the file when missing. On an error the file is as
+/// before.
+void append_line(const std::string& path, std::string_view line, std::string_view first_line = {});
 
 }  // namespace strandlab

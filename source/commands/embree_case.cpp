@@ -1,18 +1,12 @@
 #include "commands/embree_case.h"
 
+#include "base/stopwatch.h"
 #include "measure/ray_error.h"
 #include "primitives/curved_pieces.h"
 #include "trace/embree_reference.h"
 
-#include <chrono>
-#include <thread>
-
 namespace strandlab {
 namespace {
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 Hits hits_of(const std::vector<ReferenceHit>& reference) {
     Hits hits;
@@ -37,20 +31,20 @@ ResultRow with_embree_facts(ResultRow row) {
 
 ResultRow embree_row(const CaseInput& input, const MeasuredRays& rays, ResultRow row) {
     const Surface disc = curved_surface(input.scene.models[0], Surface::Sweep::disc, Caps::open);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const EmbreeScene scene(disc);
     row = with_embree_facts(std::move(row));
     SceneCost cost;
-    cost.builds.build_ms = milliseconds_since(start);
+    cost.builds.build_ms = stopwatch.milliseconds();
     cost.builds.built_bytes = cost.builds.kept_bytes = scene.bytes();
     cost.leaf_count = disc.pieces.size();
     row.cost = cost;
     std::vector<Hit> hits(rays.rays.rays.size());
     scene.trace(rays.rays.rays, std::span<Hit>(hits));  // warms up
     for (uint32_t i = 0; i < input.samples; ++i) {
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch sample_stopwatch;
         scene.trace(rays.rays.rays, std::span<Hit>(hits));
-        row.trace_ms.push_back(milliseconds_since(begin));
+        row.trace_ms.push_back(sample_stopwatch.milliseconds());
     }
     row.wall_ms = row.trace_ms;
     if (rays.sample.empty()) return row;

@@ -1,7 +1,8 @@
 #include "measure/bench_case.h"
 
+#include "base/stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace strandlab {
@@ -14,10 +15,6 @@ uint32_t scrambled(uint32_t x) {
     x ^= x >> 15;
     x *= 0x846CA68Bu;
     return x ^ (x >> 16);
-}
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -66,11 +63,11 @@ uint64_t HostGeometry::device_bytes() const {
 
 HostGeometry make_geometry(const Scene& scene, const PrimitiveChoice& choice) {
     HostGeometry geometry{choice, {}, 0};
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     for (uint32_t i = 0; i < scene.models.size(); ++i)
         geometry.models.push_back(
             {choice.primitive->build(scene.models[i], choice.options), scene.first_curve(i)});
-    geometry.milliseconds = milliseconds_since(start);
+    geometry.milliseconds = stopwatch.milliseconds();
     return geometry;
 }
 
@@ -106,7 +103,7 @@ Comparison compare_with(const Scene& scene, const Curves& curves, const Measured
                     .decisive = reference.decisive,
                     .decisive_place = reference.decisive_place,
                     .inside_own = inside_own,
-                    .margin = DecisiveMargin{}.radius,
+                    .margin = reference.margin,
                     .curves = &curves,
                     .world_from_object = transforms,
                     .residual_of_curves = against_curves,

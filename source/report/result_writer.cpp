@@ -59,8 +59,7 @@ Json ResultWriter::add(const ResultRow& row) const {
     Json object = to_json(row);
     if (!json_path_.empty()) append_line(json_path_, to_line(object));
     if (csv_path_.empty()) return object;
-    if (first_line(csv_path_).empty()) append_line(csv_path_, csv_line(csv_columns()));
-    append_line(csv_path_, csv_line(csv_fields(object)));
+    append_line(csv_path_, csv_line(csv_fields(object)), csv_line(csv_columns()));
     return object;
 }
 

@@ -2,18 +2,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "trace/cpu_trace.h"
 
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 namespace strandlab {
 namespace {
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 class GpuTracedRays : public TracedRays {
   public:
@@ -60,7 +56,7 @@ class CpuTraced : public TracedScene {
         : models_(std::move(models)),
           instances_(instances.begin(), instances.end()),
           normals_(options.normals) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch stopwatch;
         tracers_.reserve(models_.size());
         for (const SceneModel& model : models_) {
             tracers_.emplace_back(model.geometry, primitive, precision, options.ray_extent);
@@ -70,7 +66,7 @@ class CpuTraced : public TracedScene {
             cost_.leaf_count += g.leaf_count();
             cost_.structure_count += 1;
         }
-        cost_.builds.build_ms = milliseconds_since(start);
+        cost_.builds.build_ms = stopwatch.milliseconds();
     }
 
     const SceneCost& cost() const override { return cost_; }
@@ -88,13 +84,13 @@ class CpuTraced : public TracedScene {
         const std::vector<Ray>& rays = static_cast<CpuTracedRays&>(traced).rays;
         Hits& found = static_cast<CpuTracedRays&>(traced).found;
         assert(!normals_ || found.normals.size() == rays.size());
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch stopwatch;
         parallel_for(rays.size(), [&](size_t i) {
             glm::vec3 normal(0);
             found.hits[i] = trace_one(rays[i], shadow, normal);
             if (normals_) found.normals[i] = normal;
         });
-        return milliseconds_since(start);
+        return stopwatch.milliseconds();
     }
 
   private:

@@ -99,10 +99,14 @@ TEST(File, AppendsWholeLinesFromManyThreads) {
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&, t] {
-            for (int i = 0; i < 50; ++i) append_line(path, std::string(300, static_cast<char>('a' + t)));
+            for (int i = 0; i < 50; ++i)
+                append_line(path, std::string(300, static_cast<char>('a' + t)), "header");
         });
     for (std::thread& thread : threads) thread.join();
     std::ifstream file(path);
+    std::string header;
+    std::getline(file, header);
+    EXPECT_EQ(header, "header") << "once, whoever comes first";
     size_t lines = 0;
     for (std::string line; std::getline(file, line); ++lines) {
         ASSERT_EQ(line.size(), 300u);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "report/load_images_module.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -28,20 +29,12 @@ class Images : public testing::Test {
   protected:
     void SetUp() override {
         if (!has_images()) GTEST_SKIP() << "the images module was not built";
-        std::string name = (fs::temp_directory_path() / "strandlab_images_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
     }
-    void TearDown() override {
-        std::error_code ignored;
-        if (!folder_.empty()) fs::remove_all(folder_, ignored);
-    }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    size_t files() const {
-        return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-    }
+    std::string path(const std::string& name) const { return folder_ / name; }
+    size_t files() const { return folder_.entries(); }
 
-    fs::path folder_;
+  private:
+    testing_tools::TestFolder folder_;
 };
 
 Image sample_image(uint32_t width, uint32_t height) {

@@ -2,17 +2,16 @@
 #include "report/result_csv.h"
 #include "report/result_json.h"
 #include "report/result_writer.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
-#include <unistd.h>
 
 namespace strandlab {
 namespace {
@@ -206,21 +205,15 @@ TEST(ResultCsv, EveryColumnIsFilledFromTheRow) {
 
 class ResultFiles : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "strandlab-rows-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(const char* name) const { return (folder_ / name).string(); }
+    std::string path(const char* name) const { return folder_ / name; }
     static std::string text_of(const std::string& path) {
         std::ostringstream text;
         text << std::ifstream(path).rdbuf();
         return text.str();
     }
 
-    fs::path folder_;
+  private:
+    testing_tools::TestFolder folder_;
 };
 
 TEST_F(ResultFiles, GrowRowByRow) {
@@ -288,7 +281,7 @@ TEST_F(ResultFiles, ReadsAroundACutOffLineButNotOverDamage) {
         EXPECT_NE(std::string(error.what()).find("line 2"), std::string::npos) << error.what();
     }
     EXPECT_THROW(read_json_lines(path("absent")), Error);
-    EXPECT_THROW(read_json_lines(folder_.string()), Error);
+    EXPECT_THROW(read_json_lines(path("")), Error);
 }
 
 TEST(Context, KnowsProgramAndMachine) {
