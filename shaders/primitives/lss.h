@@ -86,11 +86,13 @@ FUNCTION bool round_cone_entry(real3 start, real ra, real3 end, real rb, bool op
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
 FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 start, real4 end,
-                            uint piece, uint pieces, bool open_start, bool open_end, OUT(real) t, OUT(real) u,
-                            OUT(real3) normal) {
+                            uint piece, uint pieces, bool open_start, bool open_end, bool early_out,
+                            OUT(real) t, OUT(real) u, OUT(real3) normal) {
     real3 first = real3(start);
     real3 last = real3(end);
-    RayFrame frame = make_ray_frame(origin, direction, first, (last - first) * real(0.5));
+    PieceView view;
+    if (passes_straight(origin, direction, start, end, view) && early_out) return false;
+    RayFrame frame = ray_frame_at(origin, direction, first, middle_parameter(direction, view));
     real3 from = to_frame(frame, first);
     real3 to = to_frame(frame, last);
     real3 largest = max(abs(from), abs(to));

@@ -160,8 +160,7 @@ FUNCTION real prhi_inside(real4 c) {
 
 // The hit on the tube itself: the cone's own step, then one of Newton's on w - s z' = 0, where
 // s^2 = r^2 - x^2 - y^2.
-FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiStep found) {
-    PrhiPoint p = prhi_point(cubic, v);
+FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep found) {
     // The depth of the entry as the next point will see it; on thin hair the step is many radii long.
     real side = found.s > found.dv * p.d.z ? real(1) : real(-1);
     // Possibly beyond the piece by the tolerance: neighbours overlap rather than leave a crack.
@@ -194,10 +193,30 @@ FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiStep found) {
     return hit;
 }
 
+// For a ray that crosses the piece gently (piece_test.h) one start does, at the parameter v where it is
+// nearest to the chord: an iteration that ends on a phantom, or leaves the piece, is a miss. False: not
+// converged, search.
+FUNCTION bool prhi_gentle(PrhiCubic cubic, INOUT(real) v, OUT(bool) hit, OUT(PrhiPoint) p,
+                          OUT(PrhiStep) found) {
+    hit = false;
+    for (int i = 0; i < 8; ++i) {
+        COUNT_ITERATION
+        p = prhi_point(cubic, v);
+        found = prhi_robust_step(p.c, p.d);
+        real next = clamp(v + found.dv, real(0), real(1));
+        if (abs(found.dv) < prhi_tolerance() || next == v) {
+            hit = abs(found.dv) < prhi_tolerance() && found.enters;
+            return true;
+        }
+        v = next;
+    }
+    return false;
+}
+
 // Iterates from the end that is nearer along the ray and, when that fails, from the other. Hits in front of
 // z_min are failures. low and high bound v.
 FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
-                          OUT(real) v, OUT(PrhiStep) found) {
+                          OUT(real) v, OUT(PrhiPoint) p, OUT(PrhiStep) found) {
     bool from_low = cubic.p3.z > cubic.p0.z;
     bool second_start = false;
     v = from_low ? low : high;
@@ -206,7 +225,7 @@ FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint
     uint i = 0u;
     // Both starts share one loop, so that rays in lock-step stay together.
     for (uint count = 0u; count < 2u * iterations; ++count) {
-        PrhiPoint p = prhi_point(cubic, v);
+        p = prhi_point(cubic, v);
         if (robust) {
             found = prhi_robust_step(p.c, p.d);
             // 0/0: step over it.
@@ -248,17 +267,37 @@ FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint
     return false;
 }
 
+// Whether one start will do.
+FUNCTION bool prhi_is_gentle(PrhiCubic c) {
+    real change = abs(c.p3.w - c.p0.w) + abs(c.p2.w - c.p1.w);
+    return crosses_gently(real3(c.p3) - real3(c.p0),
+                          bend_bound(real3(c.p0), real3(c.p1), real3(c.p2), real3(c.p3)),
+                          max(c.p0.w, c.p3.w) + change, change);
+}
+
 // The first entry through the side of the tube.
 FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
-                        OUT(PrhiHit) hit) {
+                        bool gentle_first, OUT(PrhiHit) hit) {
     real v;
+    PrhiPoint p;
     PrhiStep found;
-    if (!prhi_search(cubic, low, high, z_min, iterations, robust, v, found)) return false;
+    if (gentle_first && prhi_is_gentle(cubic)) {
+        real x = cubic.p3.x - cubic.p0.x;
+        real y = cubic.p3.y - cubic.p0.y;
+        v = clamp(-(cubic.p0.x * x + cubic.p0.y * y) / (x * x + y * y), real(0), real(1));
+        bool is_hit;
+        if (prhi_gentle(cubic, v, is_hit, p, found)) {
+            hit.v = v + found.dv;
+            hit.z = p.c.z + found.s;
+            hit.normal = prhi_normal(p, found.s, true);
+            return is_hit && hit.z >= z_min;
+        }
+    }
+    if (!prhi_search(cubic, low, high, z_min, iterations, robust, v, p, found)) return false;
     if (robust) {
-        hit = prhi_polish(cubic, v, found);
+        hit = prhi_polish(cubic, v, p, found);
         return hit.normal.z <= real(0);
     }
-    PrhiPoint p = prhi_point(cubic, v);
     hit.z = p.c.z + found.s;
     hit.v = v;
     hit.normal = prhi_normal(p, found.s, false);
@@ -294,24 +333,25 @@ FUNCTION bool prhi_stands_still(real4 at, real4 near, real4 middle, real4 far) {
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
 FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
-                             real4 p2, real4 p3, uint piece, uint pieces, bool robust, uint iterations,
-                             bool cap_start, bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
-    // The published frame has its origin at the ray's: everything is relative to it, near or far.
-    real3 reference = robust ? real3(p0) : origin;
+                             real4 p2, real4 p3, real first_u, real last_u, bool robust, uint iterations,
+                             bool cap_start, bool cap_end, bool early_out, bool gentle_first, OUT(real) t,
+                             OUT(real) u, OUT(real3) normal) {
+    PieceView view;
+    RayFrame frame;
+    if (robust) {
+        if (passes_piece(origin, direction, p0, p1, p2, p3, first_u, last_u, view) && early_out) return false;
+        frame = ray_frame_at(origin, direction, real3(p0), middle_parameter(direction, view));
+    } else {
+        // The published frame has its origin at the ray's: everything is relative to it, near or far.
+        frame = make_ray_frame(origin, direction, origin, real3(real(0)));
+    }
     PrhiCubic cubic;
-    cubic.p0 = real4(real3(p0) - reference, p0.w);
-    cubic.p1 = real4(real3(p1) - reference, p1.w);
-    cubic.p2 = real4(real3(p2) - reference, p2.w);
-    cubic.p3 = real4(real3(p3) - reference, p3.w);
-    if (pieces > 1u) cubic = prhi_part(cubic, real(piece) / real(pieces), real(piece + 1u) / real(pieces));
-    real3 middle = (real3(cubic.p0) + real3(cubic.p1) + real3(cubic.p2) + real3(cubic.p3)) * real(0.25);
-    RayFrame frame = make_ray_frame(origin, direction, reference, robust ? middle : real3(real(0)));
-    frame.reference = real3(real(0));  // subtracted already
-    cubic.p0 = real4(to_frame(frame, real3(cubic.p0)), cubic.p0.w);
-    cubic.p1 = real4(to_frame(frame, real3(cubic.p1)), cubic.p1.w);
-    cubic.p2 = real4(to_frame(frame, real3(cubic.p2)), cubic.p2.w);
-    cubic.p3 = real4(to_frame(frame, real3(cubic.p3)), cubic.p3.w);
-    if (prhi_passes(cubic)) return false;
+    cubic.p0 = real4(to_frame(frame, real3(p0)), p0.w);
+    cubic.p1 = real4(to_frame(frame, real3(p1)), p1.w);
+    cubic.p2 = real4(to_frame(frame, real3(p2)), p2.w);
+    cubic.p3 = real4(to_frame(frame, real3(p3)), p3.w);
+    if (last_u - first_u < real(1)) cubic = prhi_part(cubic, first_u, last_u);
+    if (!(robust && early_out) && prhi_passes(cubic)) return false;
 
     real low = real(0);
     real high = real(1);
@@ -323,7 +363,7 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     real z_min = (tmin - frame.t_foot) / frame.inv_length;
     PrhiHit hit;
     PrhiHit other;
-    bool found = prhi_side(cubic, low, high, z_min, iterations, robust, hit);
+    bool found = prhi_side(cubic, low, high, z_min, iterations, robust, robust && gentle_first, hit);
     if (cap_start) {
         real3 outward = prhi_end_direction(cubic.p0, cubic.p1, cubic.p2, cubic.p3);
         if (prhi_cap(cubic.p0, outward, real(0), z_min, other) && !(found && hit.z <= other.z)) {
@@ -340,7 +380,7 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     }
     if (!found) return false;
     t = ray_parameter(frame, hit.z);
-    u = (real(piece) + clamp(hit.v, real(0), real(1))) / real(pieces);
+    u = mix(first_u, last_u, clamp(hit.v, real(0), real(1)));
     normal = from_frame(frame, normal_or_facing(hit.normal));
     return t >= tmin && t < tmax;
 }

@@ -2,36 +2,6 @@
 // 2024 only find candidates: each is thick enough to hold its piece of the curve, and the parameter that
 // it gives is then refined on the swept sphere itself.
 
-// A step of u towards a minimum of the entry depth z - sqrt(D), D = r^2 - x^2 - y^2, from the curve's jet at
-// u: Newton on g = h + z' sqrt(D), h = x x' + y y' - r r', where g grows about as it does at a minimum (there
-// h = -z' sqrt(D)), else the exact minimum of the tangent cone; outside the tube towards the ray line.
-FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
-    real h = p.x * d.x + p.y * d.y - p.w * d.w;
-    real lateral = d.x * d.x + d.y * d.y;
-    real a = d.w * d.w - lateral;
-    real e = d.z * d.z - a;
-    real h_slope = p.x * dd.x + p.y * dd.y - p.w * dd.w - a;
-    if (inside > real(0)) {
-        real depth = sqrt(inside);
-        real g = h + d.z * depth;
-        real g_slope = h_slope + depth * dd.z - d.z * h / depth;
-        real settled = h_slope + depth * dd.z + d.z * d.z;
-        if (settled > real(0.02) * e && g_slope > real(0.5) * settled && g_slope < real(2) * settled)
-            return -g / g_slope;
-    }
-    real along_x = p.w * d.x - d.w * p.x;
-    real along_y = p.w * d.y - d.w * p.y;
-    real along = sqrt(along_x * along_x + along_y * along_y);
-    real turn = abs(d.x * p.y - d.y * p.x);
-    real discriminant = (along - turn) * (along + turn);
-    if (discriminant >= real(0) && e > real(0)) {
-        real w = d.z * sqrt(discriminant / e);
-        // (h + w) / a without its cancellation.
-        return (h < real(0)) == (w < real(0)) ? (h + w) / a : (d.z * d.z * inside - h * h) / (e * (h - w));
-    }
-    return -h / abs(h_slope);
-}
-
 // Follows the entry depth downhill from u within [low, high], at most 4 steps of at most `longest`; z and
 // best_u become the nearest entry met on the way, if it is nearer than z. Every point with D >= 0 is one
 // of the solid, so no step can do harm.
@@ -243,10 +213,10 @@ FUNCTION real largest_bend(FrameCubic c, real a, real b) {
            max(abs(first.w), abs(last.w));
 }
 
-// Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax. epsilon bounds how
-// far the axis of a capsule may leave the curve, in radii.
+// The piece [first_u, last_u] of a curve against a ray: entering hits with tmin <= t < tmax. epsilon bounds
+// how far the axis of a capsule may leave the curve, in radii.
 FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
-                              real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
+                              real4 c2, real4 c3, real first_u, real last_u, bool begins_strand,
                               bool ends_strand, bool open_ends, real epsilon, OUT(real) t, OUT(real) u,
                               OUT(real3) normal) {
     real3 reference = real3(c0);
@@ -270,8 +240,8 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     VerifiedSearch search;
     search.slack = real(4) * real_epsilon * max(max(largest.x, largest.y), max(largest.z, largest.w));
     search.z_min = (tmin - frame.t_foot) / frame.inv_length * unit;
-    search.a = real(piece) / real(pieces);
-    search.b = real(piece + 1u) / real(pieces);
+    search.a = first_u;
+    search.b = last_u;
     search.bend = largest_bend(c, search.a, search.b);
     real4 p = cubic_point(c, search.a);
     real4 q = cubic_point(c, search.b);
@@ -283,8 +253,8 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
     // inside, or look into an open end), the whole curve is searched.
     search.open_start = open_ends && begins_strand;
     search.open_end = open_ends && ends_strand;
-    bool crosses_a = piece > 0u && axis_distance(p) <= p.w + search.slack;
-    bool crosses_b = piece + 1u < pieces && axis_distance(q) <= q.w + search.slack;
+    bool crosses_a = first_u > real(0) && axis_distance(p) <= p.w + search.slack;
+    bool crosses_b = last_u < real(1) && axis_distance(q) <= q.w + search.slack;
     real z_low = min(min(c.p0.z - c.p0.w, c.p1.z - c.p1.w), min(c.p2.z - c.p2.w, c.p3.z - c.p3.w));
     real z_high = max(max(c.p0.z + c.p0.w, c.p1.z + c.p1.w), max(c.p2.z + c.p2.w, c.p3.z + c.p3.w));
     bool starts_near = search.z_min >= z_low && search.z_min <= z_high;
@@ -312,8 +282,7 @@ FUNCTION bool rocaps_verified(real3 origin, real3 direction, real tmin, real tma
 
     real z = z_max;
     if (!verified_search(c, search, z, u)) return false;
-    if (!polish_entry(c, search, real(piece) / real(pieces), real(piece + 1u) / real(pieces), z, u, normal))
-        return false;
+    if (!polish_entry(c, search, first_u, last_u, z, u, normal)) return false;
     normal = from_frame(frame, normal);
     t = ray_parameter(frame, z / unit);
     return t >= tmin && t < tmax;

@@ -47,15 +47,13 @@ FUNCTION real3 product_error(real s, real3 v, real3 product) {
     return result;
 }
 
-// Frame of the ray origin + t direction for a primitive with a point `reference` and its mean point
-// `reference + middle`.
-FUNCTION RayFrame make_ray_frame(real3 origin, real3 direction, real3 reference, real3 middle) {
+// Frame of the ray origin + t direction at its point t_foot, for a primitive with a point `reference` near
+// it.
+FUNCTION RayFrame ray_frame_at(real3 origin, real3 direction, real3 reference, real t_foot) {
     RayFrame frame;
     PRECISE real3 s = origin - reference;
     PRECISE real3 s_error = difference_error(origin, reference, s);
-    real length_squared = dot(direction, direction);
     // The raw direction, not the normalised one: normalising rounds it by 6e-8.
-    real t_foot = dot(middle - s, direction) / length_squared;
     PRECISE real3 step = direction * t_foot;
     PRECISE real3 step_error = product_error(t_foot, direction, step);
     PRECISE real3 near = s + step;
@@ -64,7 +62,7 @@ FUNCTION RayFrame make_ray_frame(real3 origin, real3 direction, real3 reference,
     frame.reference = reference;
     frame.foot = foot;
     frame.t_foot = t_foot;
-    frame.inv_length = real(1) / sqrt(length_squared);
+    frame.inv_length = real(1) / sqrt(dot(direction, direction));
     // Orthonormal basis without branches on more than a sign (Duff et al. 2017).
     real3 n = direction * frame.inv_length;
     real side = n.z >= real(0) ? real(1) : real(-1);
@@ -76,10 +74,21 @@ FUNCTION RayFrame make_ray_frame(real3 origin, real3 direction, real3 reference,
     return frame;
 }
 
+// The same where the ray is nearest to the primitive's mean point `reference + middle`.
+FUNCTION RayFrame make_ray_frame(real3 origin, real3 direction, real3 reference, real3 middle) {
+    return ray_frame_at(origin, direction, reference,
+                        dot(middle - (origin - reference), direction) / dot(direction, direction));
+}
+
 // A point of the primitive in the frame.
 FUNCTION real3 to_frame(RayFrame frame, real3 point) {
     real3 p = (point - frame.reference) - frame.foot;
     return real3(dot(p, frame.axis_x), dot(p, frame.axis_y), dot(p, frame.axis_z));
+}
+
+// A vector in the frame.
+FUNCTION real3 turn_to_frame(RayFrame frame, real3 v) {
+    return real3(dot(v, frame.axis_x), dot(v, frame.axis_y), dot(v, frame.axis_z));
 }
 
 // A vector of the frame in the space of the ray.

@@ -15,6 +15,11 @@ layout(push_constant) uniform PushConstants { TraceParameters parameters; };
 layout(constant_id = 0) const bool has_leaf_table = true;  // else leaf i is piece i % n of curve i / n
 layout(constant_id = 1) const bool wants_normals = false;
 layout(constant_id = 2) const uint curves_of_a_ray = 0u;  // not 0: ray i meets curves [i n, (i + 1) n) alone
+layout(constant_id = 3) const uint uniform_pieces = 0u;   // not 0: pieces of every curve, else in the row
+layout(constant_id = 4) const bool has_one_row = false;   // then it lies in the push constants
+layout(constant_id = 5) const bool is_in_place = false;   // no instance is moved
+layout(constant_id = 6) const bool early_out = true;      // leave what a ray passes before anything else
+layout(constant_id = 7) const bool gentle_first = true;   // the short way for rays that cross a piece gently
 
 struct Ray {
     vec3 origin;
@@ -46,13 +51,25 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Ro
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer LeafBuffer { Leaf items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Vec4Buffer { vec4 items[]; };
 
-GeometryRow fetch_row(uint custom_index) { return RowBuffer(parameters.rows).items[custom_index]; }
+GeometryRow fetch_row(uint custom_index) {
+    if (has_one_row) return parameters.row;
+    return RowBuffer(parameters.rows).items[custom_index];
+}
 
 // The leaf behind a primitive index of the current acceleration structure.
 Leaf fetch_leaf(GeometryRow row, uint primitive) {
     if (has_leaf_table) return LeafBuffer(row.leaves).items[row.first_leaf + primitive];
     uint index = row.first_leaf + primitive;
-    return Leaf(index / row.pieces, (index % row.pieces) | (row.pieces << 12));
+    uint pieces = uniform_pieces != 0u ? uniform_pieces : row.pieces;
+    return Leaf(index / pieces, (index % pieces) | (pieces << 12));
+}
+
+// The parameters between which the leaf's piece lies. Quotients by a power of two are exact products.
+vec2 leaf_interval(Leaf leaf) {
+    float first = float(leaf_piece(leaf));
+    if (uniform_pieces != 0u && (uniform_pieces & (uniform_pieces - 1u)) == 0u)
+        return vec2(first, first + 1.0) * (1.0 / float(uniform_pieces));
+    return vec2(first, first + 1.0) / float(leaf_pieces(leaf));
 }
 
 // Index of the current ray within its buffer.

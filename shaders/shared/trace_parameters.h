@@ -12,18 +12,6 @@ using uint = uint32_t;
 #define address uvec2
 #endif
 
-struct TraceParameters {
-    address scene;    // acceleration structure of the instances
-    address rays;     // Ray[]
-    address hits;     // Hit[]
-    address normals;  // 3 floats per ray; read only when normals are asked for
-    address rows;     // GeometryRow[], indexed by the custom index of the structure's instance
-    uint first_ray;   // of this launch
-    uint ray_count;   // rays beyond it are not traced
-    uint ray_flags;   // gl_RayFlags* besides opaque
-    uint is_shadow;   // not 0: only whether anything is hit
-};
-
 // One instance of a bottom-level acceleration structure: where its shaders find their records.
 struct GeometryRow {
     address leaves;           // Leaf[], or unused where the leaf follows from its index
@@ -36,8 +24,21 @@ struct GeometryRow {
     uint instance;            // of the scene: hits name it
 };
 
+struct TraceParameters {
+    address scene;    // acceleration structure of the instances
+    address rays;     // Ray[]
+    address hits;     // Hit[]
+    address normals;  // 3 floats per ray; read only when normals are asked for
+    address rows;     // GeometryRow[], indexed by the custom index of the structure's instance
+    uint first_ray;   // of this launch
+    uint ray_count;   // rays beyond it are not traced
+    uint ray_flags;   // gl_RayFlags* besides opaque
+    uint is_shadow;   // not 0: only whether anything is hit
+    GeometryRow row;  // the only one, where there is but one
+};
+
 #ifdef __cplusplus
-static_assert(sizeof(TraceParameters) == 56 && sizeof(GeometryRow) == 48);
+static_assert(sizeof(TraceParameters) == 104 && sizeof(GeometryRow) == 48);
 }  // namespace strandlab::layout
 #else
 #undef address

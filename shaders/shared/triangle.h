@@ -13,7 +13,8 @@ FUNCTION bool triangle_entry(real3 a, real3 b, real3 c, OUT(real) z, OUT(real2) 
     if (!((all_front || all_back) && abs(area) > real(0))) return false;
     barycentrics = real2(weight_b / area, weight_c / area);
     z = (weight_a * a.z + weight_b * b.z + weight_c * c.z) / area;
-    // Seen edge-on, from beside it too, the areas are nothing but rounding: then they do not lead back to the ray.
+    // Seen edge-on, from beside it too, the areas are nothing but rounding: then they do not lead back to the
+    // ray.
     real x = (weight_a * a.x + weight_b * b.x + weight_c * c.x) / area;
     real y = (weight_a * a.y + weight_b * b.y + weight_c * c.y) / area;
     real reach_x = max(abs(a.x), max(abs(b.x), abs(c.x)));

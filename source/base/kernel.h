@@ -45,6 +45,7 @@ using glm::clamp;
 using glm::cross;
 using glm::dot;
 using glm::fma;  // not fused, and never called: hardware_fma is false
+using glm::inversesqrt;
 using glm::length;
 using glm::max;
 using glm::min;

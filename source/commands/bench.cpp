@@ -1,5 +1,6 @@
 // strandlab bench: run time against memory and error, one row per case.
 #include "base/error.h"
+#include "commands/ablation.h"
 #include "commands/bench_options.h"
 #include "commands/bench_run.h"
 #include "commands/command.h"
@@ -19,6 +20,10 @@ namespace {
 
 int run(BenchOptions& options) {
     options.check();
+    if (options.explain || options.ablation) {
+        print_ablation(options, options.ablation);
+        return 0;
+    }
     std::vector<nlohmann::ordered_json> baseline;
     if (!options.baseline.empty()) baseline = merged_rows(read_json_lines(options.baseline));
     BenchRun bench(options);

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "commands/bench_presets.h"
 #include "commands/usage_error.h"
+#include "trace/skips.h"
 
 #include <cctype>
 
@@ -75,6 +76,12 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_option("--leaf-order", leaf_order, "order of leaves in builds: auto, file, median")
         ->capture_default_str();
     app.add_flag("--no-compaction", no_compaction, "keep acceleration structures as built");
+    app.add_flag("--low-memory", low_memory,
+                 "smaller acceleration structures, slower to trace, where the driver can");
+    app.add_option("--no-skip", no_skips, "force a skip off, repeatable; --explain lists them");
+    app.add_flag("--explain", explain, "only print what tracing leaves out for these scenes and primitives");
+    app.add_flag("--ablation", ablation,
+                 "only measure what each of that saves, and that answers stay the same");
     app.add_flag("--no-normals", no_normals, "write t, u and curve only: 16 bytes a ray")
         ->excludes("--images");
     app.add_flag("--no-embree", no_embree, "no row for Embree's round curves");
@@ -90,6 +97,7 @@ void BenchOptions::check() const {
     shard();
     order();
     if (!rays.resolution.empty()) resolutions();
+    check_skips(no_skips);
     const std::pair<const char*, double> limits[] = {
         {"--max-error", max_error}, {"--max-memory", max_memory}, {"--time-budget", time_budget}};
     for (const auto& [option, value] : limits)
@@ -104,6 +112,14 @@ SceneOptions::Order BenchOptions::order() const {
     if (leaf_order == "file") return SceneOptions::Order::as_built;
     if (leaf_order == "median") return SceneOptions::Order::median;
     fail(ExitCode::usage, "--leaf-order {}: must be auto, file or median", leaf_order);
+}
+
+void BenchOptions::apply_to(SceneOptions& scene) const {
+    scene.order = order();
+    scene.compact = !no_compaction;
+    scene.low_memory = low_memory;
+    scene.normals = !no_normals;
+    scene.no_skips = no_skips;
 }
 
 std::vector<Resolution> BenchOptions::resolutions() const {
@@ -139,6 +155,8 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
     if (!options.device.device.empty()) command.add("--device", options.device.device);
     if (options.leaf_order != "auto") command.add("--leaf-order", options.leaf_order);
     command.flag("--no-compaction", options.no_compaction);
+    command.flag("--low-memory", options.low_memory);
+    for (const std::string& skip : options.no_skips) command.add("--no-skip", skip);
     command.flag("--no-normals", options.no_normals);
     command.flag("--no-embree", row.primitive.name != "embree");
     return command.text();

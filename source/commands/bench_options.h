@@ -30,7 +30,9 @@ struct BenchOptions {
     uint32_t interleave = 0;                                // primitives at a time; 0: as many as fit
     double max_error = 0, max_memory = 0, time_budget = 0;  // 0: no limit
     bool resume = false;
-    bool no_embree = false, no_compaction = false, no_normals = false;
+    bool no_embree = false, no_compaction = false, no_normals = false, low_memory = false;
+    std::vector<std::string> no_skips;
+    bool explain = false, ablation = false;
 
     void add_to(CLI::App& app);
     bool has_error_rays() const;  // --error-rays was given
@@ -39,6 +41,8 @@ struct BenchOptions {
     void check() const;
     Shard shard() const { return parse_shard(shard_text); }
     SceneOptions::Order order() const;
+    /// Sets what of the options says how scenes are put on the device.
+    void apply_to(SceneOptions& scene) const;
     /// Of --resolution, "WIDTHxHEIGHT" separated by commas; throws Error (usage).
     std::vector<Resolution> resolutions() const;
 

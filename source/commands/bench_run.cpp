@@ -7,10 +7,10 @@
 #include "commands/embree_case.h"
 #include "commands/hit_files.h"
 #include "measure/pareto.h"
+#include "report/case_images.h"
 #include "report/images.h"
 #include "report/result_json.h"
 #include "report/result_table.h"
-#include "report/shading.h"
 #include "strands/models.h"
 #include "trace/embree_reference.h"
 
@@ -90,8 +90,9 @@ struct BenchRun::Block {
     RaySets rays;
     std::vector<RayFacts> ray_facts;  // of each set; of those not wanted empty
     CaseInput input;
-    std::vector<Case> open;            // cases to measure
-    std::map<size_t, Json> rows = {};  // by case number
+    std::vector<Case> open;                            // cases to measure
+    std::map<size_t, Json> rows = {};                  // by case number
+    std::vector<ReferenceHit> picture_reference = {};  // of the rays that are a picture, once wanted
 
     bool is_open(size_t set, size_t primitive) const {
         return std::any_of(open.begin(), open.end(),
@@ -184,9 +185,7 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
         block.ray_facts.push_back(wanted[set] ? ray_facts(block.rays.sets()[set], options_.rays.seed,
                                                           axes_->resolutions[resolution])
                                               : RayFacts{});
-    block.input.options.order = options_.order();
-    block.input.options.compact = !options_.no_compaction;
-    block.input.options.normals = !options_.no_normals;
+    options_.apply_to(block.input.options);
     block.input.options.ray_extent = object_extent(scene, block.rays.extent());
     if (!options_.save_rays.empty())
         for (size_t set = 0; set < wanted.size(); ++set)
@@ -221,7 +220,9 @@ std::vector<BenchRun::Case> BenchRun::open_cases(Block& block) {
         for (size_t primitive = 0; primitive < axes_->primitives.size(); ++primitive) {
             const size_t number = axes_->number(block.model, block.resolution, set, primitive);
             if (!is_wanted(number)) continue;
-            const auto row = finished_.find(base_row(block, set, primitive).key());
+            const std::string key = base_row(block, set, primitive).key();
+            if (!seen_.insert(key).second) continue;  // a model or set that was named twice
+            const auto row = finished_.find(key);
             if (row == finished_.end())
                 open.push_back({set, primitive});
             else
@@ -236,13 +237,9 @@ ResultRow BenchRun::base_row(const Block& block, size_t set, size_t primitive) c
     row.model = block.facts;
     row.rays = block.ray_facts[set];
     row.device = facts_of(device_.info(), device_.has_validation());
-    row.settings = {*options_.repeat,
-                    warm_up_of(device_.info()),
-                    options_.rays.error_rays,
-                    options_.leaf_order,
-                    !options_.no_compaction,
-                    !options_.no_normals,
-                    caps_};
+    row.settings = {*options_.repeat,    warm_up_of(device_.info()), options_.rays.error_rays,
+                    options_.leaf_order, !options_.no_compaction,    !options_.no_normals,
+                    options_.low_memory, options_.no_skips,          caps_};
     row.seed = options_.rays.seed;
     row.context = context_;
     if (primitive == choices_.size()) return with_embree_facts(std::move(row));
@@ -274,7 +271,7 @@ void BenchRun::measure_set(Block& block, size_t set, const std::vector<const Pre
             row.model_error = std::move(errors.model);
             if (!is_within_limits(row)) continue;
             if (!options_.images.empty() && rays.is_picture)
-                row.picture = write_picture(block, *prepared, rays, hits);
+                row.images = write_pictures(block, *prepared, rays, hits);
         }
         rows.push_back(std::move(row));
         traced.push_back(prepared);
@@ -346,18 +343,32 @@ void BenchRun::add(Block& block, ResultRow row) {
     block.rows[row.sweep.number] = writer_->add(row);
 }
 
-std::string BenchRun::write_picture(const Block& block, const PreparedCase& prepared,
-                                    const MeasuredRays& rays, const Hits& hits) const {
-    std::string name = block.scene.name + "_" + prepared.choice.label();
-    if (resolutions_.size() > 1) name += "_" + axes_->resolutions[block.resolution];
-    for (char& c : name)
-        if (c == ':' || c == ',' || c == '=' || c == '/') c = '_';
-    const std::string path = (std::filesystem::path(options_.images) / (name + ".png")).string();
-    ShadingOptions shading;
-    shading.width = resolutions_[block.resolution].width;
-    shading.height = resolutions_[block.resolution].height;
-    write_image(path, shade(rays.rays, hits, block.curves, shading));
-    return path_in_row(path, options_.json);
+CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
+                                   const Hits& hits) const {
+    if (block.picture_reference.empty())
+        block.picture_reference =
+            make_scene_hits(block.scene, common_surfaces(block.scene, caps_), rays.rays.rays);
+    std::vector<glm::mat4x3> transforms;
+    if (!block.scene.is_plain())
+        for (const SceneInstance& instance : block.scene.instances)
+            transforms.push_back(instance.world_from_object);
+    const Resolution& size = resolutions_[block.resolution];
+    std::string scene = block.scene.name;
+    if (resolutions_.size() > 1) scene += "_" + axes_->resolutions[block.resolution];
+    const CaseImages files = write_case_images({.folder = options_.images,
+                                                .scene = scene,
+                                                .label = prepared.choice.label(),
+                                                .width = size.width,
+                                                .height = size.height,
+                                                .rays = rays.rays,
+                                                .hits = hits,
+                                                .curves = block.curves,
+                                                .reference = block.picture_reference,
+                                                .world_from_object = transforms});
+    const auto in_row = [&](const std::string& path) {
+        return path.empty() ? "" : path_in_row(path, options_.json);
+    };
+    return {in_row(files.rendered), in_row(files.reference), in_row(files.error_map)};
 }
 
 }  // namespace strandlab

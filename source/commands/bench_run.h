@@ -2,9 +2,9 @@
 #pragma once
 
 #include "commands/bench_options.h"
-#include "measure/scene_group.h"
 #include "measure/bench_case.h"
 #include "measure/interleave.h"
+#include "measure/scene_group.h"
 #include "report/result_writer.h"
 #include "trace/trace_device.h"
 
@@ -13,6 +13,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,8 @@ class BenchRun {
 
     ResultRow base_row(const Block& block, size_t set, size_t primitive) const;
     std::string device_line() const;
-    std::string write_picture(const Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
-                              const Hits& hits) const;
+    CaseFiles write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
+                             const Hits& hits) const;
 
     BenchOptions& options_;
     TraceDevice device_;
@@ -69,6 +70,7 @@ class BenchRun {
     std::unique_ptr<ResultWriter> writer_;
     Context context_;
     std::map<std::string, nlohmann::ordered_json> finished_;  // rows of --resume by key
+    std::set<std::string> seen_;                              // keys of all cases so far
     std::vector<nlohmann::ordered_json> rows_;
     std::chrono::steady_clock::time_point start_;
     size_t left_out_ = 0;

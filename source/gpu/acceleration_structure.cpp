@@ -60,10 +60,11 @@ Structure create(const Device& device, Type type, uint64_t bytes) {
 
 /// Builds one geometry; fills cost (but upload and input) and, where asked, the compacted size.
 Structure build(const Device& device, Type type, const vk::AccelerationStructureGeometryKHR& geometry,
-                uint32_t count, bool compactable, BuildCost& cost, uint64_t* compacted_bytes) {
+                uint32_t count, bool compactable, bool low_memory, BuildCost& cost, uint64_t* compacted_bytes) {
     const DeviceState& state = device.state();
     vk::BuildAccelerationStructureFlagsKHR flags =
         vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
+    if (low_memory) flags |= vk::BuildAccelerationStructureFlagBitsKHR::eLowMemory;
     if (compactable) flags |= vk::BuildAccelerationStructureFlagBitsKHR::eAllowCompaction;
     vk::AccelerationStructureBuildGeometryInfoKHR info(
         type, flags, vk::BuildAccelerationStructureModeKHR::eBuild, {}, {}, geometry);
@@ -283,7 +284,7 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
         uint64_t compacted_bytes = 0;
         Structure structure =
             build(device, Type::eBottomLevel, geometry, static_cast<uint32_t>(input.leaf_count()),
-                  input.compact, cost, input.compact ? &compacted_bytes : nullptr);
+                  input.compact, input.low_memory, cost, input.compact ? &compacted_bytes : nullptr);
         if (compacted_bytes != 0 && compacted_bytes < cost.built_bytes)
             structure = compacted(device, std::move(structure), compacted_bytes, cost);
         total.add(cost);
@@ -298,7 +299,7 @@ AccelerationStructure build_top_level(const Device& device, std::span<const Inst
         const Buffer input = upload_instances(device, instances);
         cost.input_bytes = input.size();
         Structure structure = build(device, Type::eTopLevel, instance_geometry(input.address()),
-                                    static_cast<uint32_t>(instances.size()), false, cost, nullptr);
+                                    static_cast<uint32_t>(instances.size()), false, false, cost, nullptr);
         total.add(cost);
         return AccelerationStructure(std::move(structure));
     });

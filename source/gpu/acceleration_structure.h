@@ -19,6 +19,7 @@ struct BottomLevelInput {
     std::span<const glm::uvec3> triangles;
     bool opaque = true;
     bool compact = true;
+    bool low_memory = false;  // smaller, and slower to trace, where the driver can
 
     size_t leaf_count() const { return triangles.empty() ? boxes.size() / 6 : triangles.size(); }
 };

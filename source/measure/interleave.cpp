@@ -1,9 +1,9 @@
 #include "measure/interleave.h"
 
 #include "base/random.h"
+#include "base/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace strandlab {
@@ -15,12 +15,9 @@ constexpr uint64_t stream_order = 0x6F72646572;  // "order"
 /// not tell.
 void warm_up(std::span<const std::function<double()>> traces, double device_ms) {
     if (traces.empty()) return;
-    const auto start = std::chrono::steady_clock::now();
-    const auto wall_ms = [&] {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    };
+    const Stopwatch wall;
     double spent = 0;
-    for (size_t i = 0; spent < device_ms && wall_ms() < 10 * device_ms; ++i)
+    for (size_t i = 0; spent < device_ms && wall.milliseconds() < 10 * device_ms; ++i)
         spent += traces[i % traces.size()]();
 }
 
@@ -42,10 +39,9 @@ std::vector<TimeSamples> interleave(std::span<const std::function<double()>> tra
         const auto order = round_order(options.seed, round, static_cast<uint32_t>(traces.size()));
         for (uint32_t position = 0; position < order.size(); ++position) {
             TimeSamples& of_trace = samples[order[position]];
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch wall;
             of_trace.device_ms.push_back(traces[order[position]]());
-            of_trace.wall_ms.push_back(
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+            of_trace.wall_ms.push_back(wall.milliseconds());
             of_trace.positions.push_back(position);
         }
         if (options.stop && options.stop(round + 1)) break;

@@ -12,6 +12,7 @@ namespace kernels {
 template <class real>
 struct LssKernel {
     STRANDLAB_KERNEL_TYPES
+#include "shaders/shared/piece_test.h"
 #include "shaders/shared/ray_frame.h"
 #include "shaders/primitives/lss.h"
 };
@@ -37,7 +38,7 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
                                  Real(ray.tmin), tmax, glm::vec<4, Real>(record.start),
                                  glm::vec<4, Real>(record.end), leaf.piece(), leaf.pieces(),
                                  open && (leaf.flags() & Leaf::begins_strand),
-                                 open && (leaf.flags() & Leaf::ends_strand), hit.t, hit.u, hit.normal);
+                                 open && (leaf.flags() & Leaf::ends_strand), true, hit.t, hit.u, hit.normal);
 }
 
 Surface surface(const Curves& curves, const BuildOptions& options) {

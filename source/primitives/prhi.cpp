@@ -9,6 +9,7 @@ namespace kernels {
 template <class real, bool counts>
 struct PrhiKernel {
     STRANDLAB_KERNEL_TYPES
+#include "shaders/shared/piece_test.h"
 #include "shaders/shared/ray_frame.h"
 #include "shaders/primitives/prhi.h"
 };
@@ -29,11 +30,12 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
     const Leaf leaf = geometry.leaves[index];
     const Curve& c = curve_record(geometry, leaf);
     const bool flat = geometry.constant(flat_ends) != 0;
-    return Kernel::prhi_intersect(Real3(ray.origin), Real3(ray.direction), Real(ray.tmin), tmax, Real4(c[0]),
-                                  Real4(c[1]), Real4(c[2]), Real4(c[3]), leaf.piece(), leaf.pieces(),
-                                  geometry.constant(robust) != 0, geometry.constant(iterations),
-                                  flat && (leaf.flags() & Leaf::begins_strand),
-                                  flat && (leaf.flags() & Leaf::ends_strand), hit.t, hit.u, hit.normal);
+    return Kernel::prhi_intersect(
+        Real3(ray.origin), Real3(ray.direction), Real(ray.tmin), tmax, Real4(c[0]), Real4(c[1]), Real4(c[2]),
+        Real4(c[3]), Real(leaf.piece()) / Real(leaf.pieces()), Real(leaf.piece() + 1) / Real(leaf.pieces()),
+        geometry.constant(robust) != 0, geometry.constant(iterations),
+        flat && (leaf.flags() & Leaf::begins_strand), flat && (leaf.flags() & Leaf::ends_strand), true, true,
+        hit.t, hit.u, hit.normal);
 }
 
 bool counted(const Geometry& geometry, size_t index, const Ray& ray, float tmax, LeafHit<float>& hit,

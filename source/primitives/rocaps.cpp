@@ -14,9 +14,11 @@ namespace kernels {
 template <class real, bool counts>
 struct RocapsKernel {
     STRANDLAB_KERNEL_TYPES
+#include "shaders/shared/piece_test.h"
 #include "shaders/shared/ray_frame.h"
 #include "shaders/primitives/lss.h"
 #include "shaders/primitives/rocaps.h"
+#include "shaders/primitives/rocaps_gentle.h"
 #include "shaders/primitives/rocaps_published.h"
 #include "shaders/primitives/rocaps_verified.h"
 };
@@ -45,9 +47,15 @@ bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax
     if (geometry.constant(verified) == 0)
         return Kernel::rocaps_published(origin, direction, Real(ray.tmin), tmax, c0, c1, c2, c3, leaf.piece(),
                                         leaf.pieces(), begins, ends, open, hit.t, hit.u, hit.normal);
+    const Real first_u = Real(leaf.piece()) / Real(leaf.pieces());
+    const Real last_u = Real(leaf.piece() + 1) / Real(leaf.pieces());
+    bool found = false;
+    if (Kernel::rocaps_gentle(origin, direction, Real(ray.tmin), tmax, c0, c1, c2, c3, first_u, last_u,
+                              open && (begins || ends), true, true, found, hit.t, hit.u, hit.normal))
+        return found;
     const auto epsilon = Real(std::bit_cast<float>(geometry.constant(epsilon_bits)));
-    return Kernel::rocaps_verified(origin, direction, Real(ray.tmin), tmax, c0, c1, c2, c3, leaf.piece(),
-                                   leaf.pieces(), begins, ends, open, epsilon, hit.t, hit.u, hit.normal);
+    return Kernel::rocaps_verified(origin, direction, Real(ray.tmin), tmax, c0, c1, c2, c3, first_u, last_u,
+                                   begins, ends, open, epsilon, hit.t, hit.u, hit.normal);
 }
 
 std::vector<ParameterInfo> parameters() {

@@ -69,7 +69,7 @@ Json full_row() {
     ResultRow row;
     row.trace_ms = row.wall_ms = {1};
     row.ratio = {"", {1}};
-    row.picture = "x";
+    row.images = {"x", "x", "x"};
     row.geometry_ms = 0;
     row.cost.emplace();
     Comparison comparison;

@@ -86,10 +86,18 @@ Json to_json(const SweepFacts& sweep) {
         {"resolutions", axes.resolutions}, {"rays", axes.rays},           {"primitives", axes.primitives}};
 }
 
+Json to_json(const CaseFiles& images) {
+    if (images.rendered.empty()) return {};
+    return {{"rendered", text_or_null(images.rendered)},
+            {"reference", text_or_null(images.reference)},
+            {"error_map", text_or_null(images.error_map)}};
+}
+
 Json to_json(const BenchSettings& settings) {
     return {{"repeat", settings.repeat},         {"warm_up_ms", json_number(settings.warm_up_ms)},
             {"error_rays", settings.error_rays}, {"leaf_order", settings.leaf_order},
             {"compaction", settings.compaction}, {"normals", settings.normals},
+            {"low_memory", settings.low_memory}, {"no_skips", settings.no_skips},
             {"caps", name_of(settings.caps)}};
 }
 
@@ -225,7 +233,7 @@ Json to_json(const ResultRow& row) {
             {"memory", memory_of(row)},
             {"intersector_error", row.intersector_error ? to_json(*row.intersector_error) : Json()},
             {"model_error", row.model_error ? to_json(*row.model_error) : Json()},
-            {"images", row.picture.empty() ? Json() : Json{{"rendered", row.picture}}},
+            {"images", to_json(row.images)},
             {"seed", row.seed},
             {"context", to_json(row.context)}};
 }

@@ -34,6 +34,8 @@ std::string BenchSettings::key() const {
     if (leaf_order != "auto") text += " order=" + leaf_order;
     if (!compaction) text += " compaction=0";
     if (!normals) text += " normals=0";
+    if (low_memory) text += " low_memory=1";
+    for (const std::string& skip : no_skips) text += " no_skip=" + skip;
     return text;
 }
 

@@ -73,7 +73,8 @@ struct BenchSettings {
     double warm_up_ms = 0;
     size_t error_rays = 0;
     std::string leaf_order = "auto";
-    bool compaction = true, normals = true;
+    bool compaction = true, normals = true, low_memory = false;
+    std::vector<std::string> no_skips;  // forced off
     Caps caps = Caps::round;
 
     /// " order=median compaction=0 normals=0": what changes the case and is not the default.
@@ -84,6 +85,11 @@ struct BenchSettings {
 struct TimeRatio {
     std::string baseline;  // its label
     std::vector<double> samples;
+};
+
+/// Pictures of a case, as files; empty where there is none.
+struct CaseFiles {
+    std::string rendered, reference, error_map;
 };
 
 /// A finished case. What was not measured is empty, never 0.
@@ -108,7 +114,7 @@ struct ResultRow {
     std::optional<SceneCost> cost;
     std::optional<Comparison> intersector_error;  // against the primitive's own surface
     std::optional<Comparison> model_error;        // against the common reference
-    std::string picture;                          // file of the rendered picture; empty: none
+    CaseFiles images;                             // of primary rays, where pictures are wanted
     uint64_t seed = 0;
     Context context;
 

@@ -18,7 +18,17 @@ namespace strandlab {
 namespace {
 
 // Ids of shaders/shared/trace.glsl.
-enum ConstantId : uint32_t { has_leaf_table_id = 0, wants_normals_id = 1, curves_of_a_ray_id = 2 };
+enum ConstantId : uint32_t {
+    has_leaf_table_id = 0,
+    wants_normals_id = 1,
+    curves_of_a_ray_id = 2,
+    uniform_pieces_id = 3,
+    has_one_row_id = 4,
+    is_in_place_id = 5,
+    early_out_id = 6,
+    gentle_first_id = 7,
+    hardware_fma_id = 15  // shaders/shared/portable.h
+};
 
 // gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
 constexpr uint32_t shadow_flags = 0x4u | 0x8u;
@@ -70,7 +80,11 @@ Buffer upload(const Device& device, const std::vector<std::byte>& bytes, SceneCo
 
 GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector<SceneModel> models,
                    std::span<const SceneInstance> instances, const SceneOptions& options)
-    : device_(device), normals_(options.normals), curves_of_a_ray_(options.curves_of_a_ray) {
+    : device_(device),
+      normals_(options.normals),
+      curves_of_a_ray_(options.curves_of_a_ray),
+      hardware_fma_(options.hardware_fma),
+      no_skips_(options.no_skips) {
     const bool keeps_order = device.info().is_lavapipe;
     const bool reorders =
         curves_of_a_ray_ == 0 && (options.order == SceneOptions::Order::median ||
@@ -83,11 +97,21 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
         reorder_leaves(model.geometry, median_order(leaf_boxes(model.geometry)));
         cost_.order_ms += stopwatch.milliseconds();
     }
-    has_leaf_table_ = std::any_of(models.begin(), models.end(),
-                                  [](const SceneModel& m) { return m.geometry.uniform_pieces == 0; });
+    choose_skips(models, instances);
     for (uint32_t i = 0; i < models.size(); ++i) add_model(models[i], i, options);
     add_instances(instances, models);
     if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options.pipelines);
+}
+
+void GpuScene::choose_skips(std::span<const SceneModel> models, std::span<const SceneInstance> instances) {
+    const uint32_t pieces = models.empty() ? 0 : models.front().geometry.uniform_pieces;
+    const auto is_uniform = [](const SceneModel& model) { return model.geometry.uniform_pieces != 0; };
+    const auto has_as_many = [&](const SceneModel& model) { return model.geometry.uniform_pieces == pieces; };
+    const auto is_in_place = [](const SceneInstance& i) { return i.world_from_object == glm::mat4x3(1.0f); };
+    has_leaf_table_ = !skips("leaf-table", std::all_of(models.begin(), models.end(), is_uniform));
+    if (!has_leaf_table_ && skips("pieces", std::all_of(models.begin(), models.end(), has_as_many)))
+        uniform_pieces_ = pieces;
+    is_in_place_ = skips("transform", std::all_of(instances.begin(), instances.end(), is_in_place));
 }
 
 void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOptions& options) {
@@ -117,6 +141,7 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
         if (curves_of_a_ray_ != 0) count = whole_rays(geometry.leaves, first, count, curves_of_a_ray_);
         BottomLevelInput& input = inputs.emplace_back(input_of(geometry, boxes, first, count));
         input.compact = options.compact;
+        input.low_memory = options.low_memory;
         input.opaque = curves_of_a_ray_ == 0;
         parts_.push_back({{}, index, static_cast<uint32_t>(first)});
         ++cost_.structure_count;
@@ -155,6 +180,7 @@ void GpuScene::add_instances(std::span<const SceneInstance> instances,
     if (rows.size() >= (size_t(1) << 24))
         fail(ExitCode::device_lost, "{} instances of structures are more than Vulkan's 24-bit index takes",
              rows.size());
+    if (skips("rows", rows.size() == 1)) row_ = rows;
     rows_ = make_buffer(device_, std::span<const layout::GeometryRow>(rows), Buffer::Use::storage);
     cost_.record_bytes += rows.size() * sizeof(rows[0]);
     add_tops(inputs, models);
@@ -179,10 +205,17 @@ void GpuScene::add_tops(std::span<const InstanceInput> inputs, const std::vector
 void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
                              PipelineStore* store) {
     const Stopwatch stopwatch;
+    const bool has_intersector = !primitive.shaders.intersection.empty();
     PipelineConstants all = constants;
     all.emplace_back(has_leaf_table_id, has_leaf_table_ ? 1u : 0u);
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
     all.emplace_back(curves_of_a_ray_id, curves_of_a_ray_);
+    all.emplace_back(uniform_pieces_id, uniform_pieces_);
+    all.emplace_back(has_one_row_id, row_.empty() ? 0u : 1u);
+    all.emplace_back(is_in_place_id, is_in_place_ ? 1u : 0u);
+    all.emplace_back(early_out_id, skips("early-out", has_intersector) ? 1u : 0u);
+    all.emplace_back(gentle_first_id, skips("gentle", has_intersector) ? 1u : 0u);
+    all.emplace_back(hardware_fma_id, skips("splitting", hardware_fma_) ? 1u : 0u);
     const auto make = [&] {
         const PrimitiveShaders& shaders = primitive.shaders;
         const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
@@ -200,11 +233,19 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     cost_.pipeline_ms = stopwatch.milliseconds();
 }
 
+bool GpuScene::skips(const char* name, bool is_possible) {
+    const bool skipped =
+        is_possible && std::find(no_skips_.begin(), no_skips_.end(), name) == no_skips_.end();
+    if (skipped) cost_.skipped.emplace_back(name);
+    return skipped;
+}
+
 std::vector<RayTracingPipeline::Launch> GpuScene::launches(const GpuRays& rays, bool shadow) const {
     layout::TraceParameters parameters{0, rays.rays_.address(), rays.hits_.address(),
-                                       normals_ ? rays.normals_.address() : 0, rows_.address()};
+                                       normals_ ? rays.normals_.address() : 0, rows_.address(), 0, 0, 0, 0, {}};
     parameters.ray_flags = shadow ? shadow_flags : 0;
     parameters.is_shadow = shadow ? 1 : 0;
+    if (!row_.empty()) parameters.row = row_.front();
     std::vector<RayTracingPipeline::Launch> all;
     for (const Top& top : tops_) add_launches(rays, parameters, top, all);
     return all;

@@ -49,6 +49,7 @@ struct SceneOptions {
     enum class Order { automatic, as_built, median };
     Order order = Order::automatic;
     bool compact = true;
+    bool low_memory = false;  // structures smaller, and slower to trace, where the driver can
     /// Largest coordinate of any ray origin: boxes are padded for it.
     float ray_extent = 1.0f;
     /// Normals will be asked for: keeps what they need.
@@ -58,6 +59,10 @@ struct SceneOptions {
     uint32_t curves_of_a_ray = 0;
     /// Largest leaf count of one structure; 0: what the device allows. Tests make it small.
     uint64_t max_leaves = 0;
+    /// fma is known to round once on this device (gpu/arithmetic.h): the ray frame may use it.
+    bool hardware_fma = false;
+    /// Names of skips (trace/skips.h) that are forced off.
+    std::vector<std::string> no_skips;
     /// Where the pipeline is kept for the next scene; none: each scene has its own.
     PipelineStore* pipelines = nullptr;
 };
@@ -70,6 +75,7 @@ struct SceneCost {
     uint64_t record_bytes = 0;  // leaves and records, kept while tracing
     uint64_t leaf_count = 0;
     uint32_t structure_count = 0;
+    std::vector<std::string> skipped;  // names of the skips taken (trace/skips.h)
 };
 
 /// Options of one trace.
@@ -137,6 +143,9 @@ class GpuScene {
     void build_parts(std::span<const BottomLevelInput> inputs, size_t first_part);
     void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
                        PipelineStore* store);
+    void choose_skips(std::span<const SceneModel> models, std::span<const SceneInstance> instances);
+    /// Whether the skip is taken: possible and not forced off. Notes it in the cost.
+    bool skips(const char* name, bool is_possible);
     std::vector<RayTracingPipeline::Launch> launches(const GpuRays& rays, bool shadow) const;
     void add_launches(const GpuRays& rays, layout::TraceParameters parameters, const Top& top,
                       std::vector<RayTracingPipeline::Launch>& all) const;
@@ -144,7 +153,12 @@ class GpuScene {
     Device device_;
     bool normals_ = false;
     uint32_t curves_of_a_ray_ = 0;
+    bool hardware_fma_ = false;
+    std::vector<std::string> no_skips_;
     bool has_leaf_table_ = true;
+    uint32_t uniform_pieces_ = 0;           // of all models; 0: they differ
+    bool is_in_place_ = false;              // no instance is moved
+    std::vector<layout::GeometryRow> row_;  // the only one, or none
     std::vector<Part> parts_;
     std::vector<ModelBuffers> model_buffers_;
     Buffer rows_;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "gpu/arithmetic.h"
 #include "trace/cpu_trace.h"
 
 #include <cassert>
@@ -159,10 +160,22 @@ void TraceDevice::check_validation() const {
          messages.front());
 }
 
+bool TraceDevice::fuses_fma() const {
+    // Processors' drivers are known not to (see `strandlab info`); asking them costs the compilation of a
+    // shader.
+    if (info_.kind == "cpu") return false;
+    if (!fuses_fma_) fuses_fma_ = arithmetic_of(*gpu_).fuses_fma;
+    return *fuses_fma_;
+}
+
 std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, std::vector<SceneModel> models,
                                                   std::span<const SceneInstance> instances,
                                                   const SceneOptions& options) const {
-    if (gpu_) return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, options);
+    if (gpu_) {
+        SceneOptions known = options;
+        known.hardware_fma = fuses_fma();
+        return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, known);
+    }
     return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single,
                                        std::move(models), instances, options);
 }

@@ -4,6 +4,7 @@
 #include "trace/gpu_scene.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,11 @@ class TraceDevice {
     std::unique_ptr<TracedRays> upload(const Rays& rays, bool normals) const;
 
   private:
+    bool fuses_fma() const;
+
     std::unique_ptr<Device> gpu_;  // none for the C++ versions
     bool is_double_ = false;
+    mutable std::optional<bool> fuses_fma_;  // asked for at the first scene
     DeviceInfo info_;
 };
 

@@ -208,6 +208,29 @@ TEST_F(SweepTest, OnePrimitiveAtATimeGivesTheSameRows) {
                    {"--baseline-primitive dots", "--primitive"});
 }
 
+TEST_F(SweepTest, MeasuresNothingTwice) {
+    Arguments arguments = sweep({"--json", "r.jsonl", "--rays", "primary", "--primitive", "lss:segments=2"});
+    arguments.insert(arguments.begin() + 1, "generate:fur,strands=60");
+    expect_success(run(arguments));
+    EXPECT_EQ(keys("r.jsonl").size(), cases);
+}
+
+#ifdef STRANDLAB_IMAGES
+TEST_F(SweepTest, WritesThePicturesThatItsRowsName) {
+    expect_success(run(sweep({"--json", "r.jsonl", "--images", "pictures"})));
+    size_t named = 0;
+    for (const Json& row : rows("r.jsonl")) {
+        EXPECT_EQ(row.at("images").is_null(), row.at("rays").at("name") != "primary");
+        if (row.at("images").is_null()) continue;
+        for (const char* kind : {"rendered", "reference", "error_map"}) {
+            EXPECT_TRUE(exists(row.at("images").at(kind))) << row.at("images");
+            ++named;
+        }
+    }
+    EXPECT_EQ(named, 3 * cases / 2);
+}
+#endif
+
 TEST_F(SweepTest, ResumesWithoutDoingAnythingTwice) {
     expect_success(run(sweep({"--json", "r.jsonl", "--csv", "r.csv"})));
     const std::string before = read("r.jsonl"), csv = read("r.csv");
