@@ -199,13 +199,14 @@ FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep foun
 FUNCTION bool prhi_gentle(PrhiCubic cubic, INOUT(real) v, OUT(bool) hit, OUT(PrhiPoint) p,
                           OUT(PrhiStep) found) {
     hit = false;
+    real tolerance = max(real(400) * real_epsilon, real(1e-9));  // no polish follows
     for (int i = 0; i < 8; ++i) {
         COUNT_ITERATION
         p = prhi_point(cubic, v);
         found = prhi_robust_step(p.c, p.d);
         real next = clamp(v + found.dv, real(0), real(1));
-        if (abs(found.dv) < prhi_tolerance() || next == v) {
-            hit = abs(found.dv) < prhi_tolerance() && found.enters;
+        if (abs(found.dv) < tolerance || next == v) {
+            hit = abs(found.dv) < tolerance && found.enters;
             return true;
         }
         v = next;

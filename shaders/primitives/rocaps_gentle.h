@@ -54,9 +54,10 @@ FUNCTION bool gentle_entry(FrameCubic c, real a, real b, real z_min, bool starts
         real wanted = u + verified_step(p, d, dd, inside);
         real next = clamp(wanted, a, b);
         real moved = next - u;
-        // Within a hundredth of the way to the silhouette: after that step the depth is right to a millionth.
+        // In float within a hundredth of the way to the silhouette: after that step the depth is right to a
+        // millionth.
         real enough = max(abs(inside), real(1e-4) * p.w * p.w);
-        if (moved * moved * dot(real3(d), real3(d)) <= real(1e-4) * enough) {
+        if (moved * moved * dot(real3(d), real3(d)) <= real(1000) * real_epsilon * enough) {
             bool is_neighbours = (wanted < a - margin && a > real(0)) || (wanted > b + margin && b < real(1));
             if (!(inside >= real(0)) || is_neighbours) return true;
             // The ball at a joint: for a ray that starts in the next curve's piece this is no entry.
@@ -66,7 +67,7 @@ FUNCTION bool gentle_entry(FrameCubic c, real a, real b, real z_min, bool starts
             real depth = sqrt(max(p.w * p.w - (p.x * p.x + p.y * p.y), real(0)));
             z = p.z - depth;
             hit = z >= z_min;
-            normal = real3(-p.x, -p.y, -depth) / p.w;
+            normal = normalize(real3(-p.x, -p.y, -depth));
             return true;
         }
         u = next;
@@ -97,10 +98,13 @@ FUNCTION bool rocaps_gentle(real3 origin, real3 direction, real tmin, real tmax,
         bend_bound(real3(c.p0), real3(c.p1), real3(c.p2), real3(c.p3)) * (width * width) * (width * width);
     real radius = max(max(c.p0.w, c.p1.w), max(c.p2.w, c.p3.w));
     real change = radius - min(min(c.p0.w, c.p1.w), min(c.p2.w, c.p3.w));
-    if (!crosses_gently(chord, bend_squared, radius, change * width * real(3))) return false;
+    real lateral = chord.x * chord.x + chord.y * chord.y;
+    // In scenes of nanometres products of four lengths would vanish: the search scales them.
+    if (!(lateral > real(1e-10)) || !crosses_gently(chord, bend_squared, radius, change * width * real(3)))
+        return false;
     real z_min = (tmin - frame.t_foot) / frame.inv_length;
     bool starts_before = z_min < min(start.z, start.z + chord.z) - radius - sqrt(bend_squared);
-    real along = -(start.x * chord.x + start.y * chord.y) / (chord.x * chord.x + chord.y * chord.y);
+    real along = -(start.x * chord.x + start.y * chord.y) / lateral;
     u = a + width * clamp(along, real(0), real(1));
     real z;
     if (!gentle_entry(c, a, b, z_min, starts_before, u, hit, z, normal)) return false;

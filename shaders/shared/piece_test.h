@@ -97,10 +97,8 @@ FUNCTION bool passes_straight(real3 origin, real3 direction, real4 start, real4 
 FUNCTION bool crosses_gently(real3 chord, real bend_squared, real radius, real change) {
     real lateral = chord.x * chord.x + chord.y * chord.y;
     real length_squared = lateral + chord.z * chord.z;
-    return lateral > real(0.05) * length_squared && lateral > real(1e-10) &&
-           bend_squared < real(0.25) * length_squared &&
-           radius * radius * bend_squared < real(0.01) * lateral * lateral &&
-           change * change < real(0.1) * lateral;
+    return lateral > real(0.05) * length_squared && bend_squared < real(0.25) * length_squared &&
+           radius * sqrt(bend_squared) < real(0.1) * lateral && change * change < real(0.1) * lateral;
 }
 
 // Bounds |C''|^2 of a cubic by its control points.

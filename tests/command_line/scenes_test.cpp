@@ -42,7 +42,7 @@ TEST_F(ScenesTest, RefusesFilesThatAreNoScene) {
     expect_refused("", {"not JSON"});
     expect_refused("{\"models\": [", {"not JSON", "line 1"});
     expect_refused("{\n\"models\": \x1b\n}", {"not JSON", "line 2"});
-    expect_refused(std::string(100000, '['), {"not JSON"});
+    expect_refused(std::string(100000, '['), {"nested more than"});
     expect_refused("\xff\xfe", {"not JSON"});
     expect_refused("[]", {"the scene must be an object"});
     expect_refused("3", {"the scene must be an object"});
