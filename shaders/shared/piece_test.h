@@ -4,15 +4,14 @@
 // A piece as a ray sees it first; positions are relative to the curve's first control point.
 struct PieceView {
     real t_near;          // ray parameter of the ray's point nearest to that control point
-    real inverse_length;  // of the ray's direction
+    real length_squared;  // of the ray's direction
     real3 start;          // of the piece
     real3 chord;          // from there to its end
 };
 
 // Ray parameter of the ray's point nearest to the middle of the chord: depths counted from there are short.
 FUNCTION real middle_parameter(real3 direction, PieceView view) {
-    return view.t_near +
-           dot(view.start + view.chord * real(0.5), direction) * view.inverse_length * view.inverse_length;
+    return view.t_near + dot(view.start + view.chord * real(0.5), direction) / view.length_squared;
 }
 
 FUNCTION real sum_of_absolutes(real3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
@@ -51,8 +50,8 @@ FUNCTION bool passes_piece(real3 origin, real3 direction, real4 p0, real4 p1, re
     view.chord = g1 * (b1 - a1) + g2 * (b2 - a2) + g3 * (b3 - a3);
     real3 normal = cross(direction, view.chord);
     real3 away = real3(p0) - origin;
-    view.inverse_length = inversesqrt(dot(direction, direction));
-    view.t_near = dot(away, direction) * view.inverse_length * view.inverse_length;
+    view.length_squared = dot(direction, direction);
+    view.t_near = dot(away, direction) / view.length_squared;
     // From the ray's nearest point: far origins then cost digits of this vector only, not of the products
     // below.
     real3 near = away - direction * view.t_near;
@@ -83,8 +82,8 @@ FUNCTION bool passes_straight(real3 origin, real3 direction, real4 start, real4 
     view.chord = real3(end) - real3(start);
     real3 normal = cross(direction, view.chord);
     real3 away = real3(start) - origin;
-    view.inverse_length = inversesqrt(dot(direction, direction));
-    view.t_near = dot(away, direction) * view.inverse_length * view.inverse_length;
+    view.length_squared = dot(direction, direction);
+    view.t_near = dot(away, direction) / view.length_squared;
     real3 near = away - direction * view.t_near;
     real chord_at = dot(near, normal);
     return is_beside(direction, normal, away, near, sum_of_absolutes(view.chord), chord_at, chord_at,

@@ -98,7 +98,8 @@ FUNCTION real3 from_frame(RayFrame frame, real3 v) {
 
 // A hit's normal in the frame; it faces the ray where a vanishing radius or an overflow leaves none.
 FUNCTION real3 normal_or_facing(real3 normal) {
-    return abs(dot(normal, normal) - real(1)) < real(0.5) ? normal : real3(real(0), real(0), real(-1));
+    bool is_normal = abs(dot(normal, normal) - real(1)) < real(0.5);
+    return is_normal ? normalize(normal) : real3(real(0), real(0), real(-1));
 }
 
 // Ray parameter of a depth in the frame.
