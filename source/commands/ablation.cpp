@@ -99,11 +99,12 @@ void measure_set(std::vector<Variant>& variants, const CaseInput& input, const M
                  {"memory", "ratio"},
                  {"answers that differ", "rays"}});
     for (size_t i = 0; i < variants.size(); ++i)
-        table.add_row({i == 0 ? "all skips" : "without " + variants[i].off, fmt::format("{:.4g}", times[i]),
-                       fmt::format("{:.3f}", times[i] / times[0]),
-                       fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
-                                                 double(variants[0].prepared.resident_bytes())),
-                       fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves)))});
+        table.add_row(
+            {i == 0 ? "all skips" : "without " + variants[i].off, fmt::format("{:.4g}", times[i]),
+             fmt::format("{:.3f}", times[i] / times[0]),
+             fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
+                                       double(variants[0].prepared.resident_bytes())),
+             fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves)))});
     fmt::print("\n{}", table.to_string(standard_output_style()));
     std::fflush(stdout);
 }

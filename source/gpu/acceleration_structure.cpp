@@ -60,7 +60,8 @@ Structure create(const Device& device, Type type, uint64_t bytes) {
 
 /// Builds one geometry; fills cost (but upload and input) and, where asked, the compacted size.
 Structure build(const Device& device, Type type, const vk::AccelerationStructureGeometryKHR& geometry,
-                uint32_t count, bool compactable, bool low_memory, BuildCost& cost, uint64_t* compacted_bytes) {
+                uint32_t count, bool compactable, bool low_memory, BuildCost& cost,
+                uint64_t* compacted_bytes) {
     const DeviceState& state = device.state();
     vk::BuildAccelerationStructureFlagsKHR flags =
         vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;

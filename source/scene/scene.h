@@ -41,7 +41,8 @@ Scene scene_of(std::string name, Curves curves);
 Curves all_curves(const Scene& scene);
 
 /// The (x, y, z, radius) control points of all instances in world space; radii scale with the largest
-/// stretch of the transform. For framing a camera: a scene with very many gives the corners of its instances' boxes.
+/// stretch of the transform. For framing a camera: a scene with very many gives the corners of its instances'
+/// boxes.
 std::vector<glm::vec4> world_points(const Scene& scene);
 
 /// Largest coordinate that an origin within `extent` of the world's origin has in the object space of any

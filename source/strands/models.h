@@ -30,13 +30,14 @@ struct ModelFormat {
 /// All formats, in the order of their names.
 const std::vector<ModelFormat>& model_formats();
 
-/// What results call a model: a specification without its prefix, the name of a hair mesh, that of a file without
-/// folder and extension.
+/// What results call a model: a specification without its prefix, the name of a hair mesh, that of a file
+/// without folder and extension.
 std::string model_name(const std::string& path);
 
 /// Loads a model. The path may be "generate:NAME,key=value,..." (strands/generators.h) or
-/// "FILE.hairmesh,key=value,..." (strands/hair_mesh/model.h); otherwise the extension, in any case, decides. strands_path names the strands of an .npy file. The report says what
-/// was passed over. Throws Error (bad_input; usage for a wrong specification or option) in one line.
+/// "FILE.hairmesh,key=value,..." (strands/hair_mesh/model.h); otherwise the extension, in any case, decides.
+/// strands_path names the strands of an .npy file. The report says what was passed over. Throws Error
+/// (bad_input; usage for a wrong specification or option) in one line.
 Curves load_model(const std::string& path, const CurveOptions& options, ImportReport& report,
                   const std::string& strands_path = {});
 

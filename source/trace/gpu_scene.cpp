@@ -241,8 +241,16 @@ bool GpuScene::skips(const char* name, bool is_possible) {
 }
 
 std::vector<RayTracingPipeline::Launch> GpuScene::launches(const GpuRays& rays, bool shadow) const {
-    layout::TraceParameters parameters{0, rays.rays_.address(), rays.hits_.address(),
-                                       normals_ ? rays.normals_.address() : 0, rows_.address(), 0, 0, 0, 0, {}};
+    layout::TraceParameters parameters{0,
+                                       rays.rays_.address(),
+                                       rays.hits_.address(),
+                                       normals_ ? rays.normals_.address() : 0,
+                                       rows_.address(),
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       {}};
     parameters.ray_flags = shadow ? shadow_flags : 0;
     parameters.is_shadow = shadow ? 1 : 0;
     if (!row_.empty()) parameters.row = row_.front();

@@ -27,7 +27,7 @@ struct Expectation {
     /// A valid ray and curves as a reader lets them through, of sizes whose squares and fourth powers neither
     /// over- nor underflow.
     bool ordinary = true;
-    bool legal = true;  // the same of any size
+    bool legal = true;   // the same of any size
     double overlap = 0;  // of Variant; 0: nothing is known
 };
 

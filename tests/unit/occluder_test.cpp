@@ -41,7 +41,7 @@ TEST(Occluder, RefusesDamagedFilesInOneLine) {
         {"v 0 0 0\nf 1 1 1.5\n", "'1.5' is no vertex"},
         {"v 0 0 0\nf 1 1 /2\n", "'/2' is no vertex"},
     };
-    for (const auto& [bytes, reason] : damages) EXPECT_MESSAGE(read_text(bytes), reason);
+    for (const auto& damage : damages) EXPECT_MESSAGE(read_text(damage.first), damage.second);
 }
 
 TEST(Occluder, EndsRaysWhereTheyMeetIt) {

@@ -79,7 +79,8 @@ double detail_at(double size, double distance, double fov_degrees, double height
 
 double bundle_size(const HairMesh& mesh) {
     double sum = 0;
-    for (const HairMeshFace& face : mesh.faces) sum += mesh.unit() * std::sqrt(0.5 * doubled_root_area(mesh, face));
+    for (const HairMeshFace& face : mesh.faces)
+        sum += mesh.unit() * std::sqrt(0.5 * doubled_root_area(mesh, face));
     return sum / double(mesh.faces.size());
 }
 
