@@ -156,7 +156,12 @@
       });
       chart.addEventListener("blur", hide);
     }
-    addEventListener("scroll", hide, { passive: true });
+    // A mark that keys chose stays chosen when the page moves, as it does to bring a chart into view; the
+    // pointer's mark is another one then.
+    addEventListener("scroll", () => {
+      if (pointed && pointed.closest("svg.chart") === document.activeElement) show(pointed, ...centre(pointed));
+      else hide();
+    }, { passive: true });
   }
 
   async function copy(text, button) {
