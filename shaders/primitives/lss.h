@@ -66,18 +66,36 @@ FUNCTION bool round_cone_entry(real3 start, real ra, real3 end, real rb, bool op
         if (!(discriminant > real(0))) return found;
     }
     if (!(discriminant >= real(0))) return false;
-    real w = axis.z * sqrt(discriminant / e);
+    real depth = sqrt(discriminant / e);  // of the entry before the centre of the ball that it lies on
+    real w = axis.z * depth;
     real u = (f + w) / a;
     if (abs(a) < real(1e-6) * (lateral + slant)) {
         real g = start.x * start.x + start.y * start.y - ra * ra;
         u = -(f * f + axis.z * axis.z * g) / (e * (f - w));
     }
-    if (!(abs(u) <= real(1e18))) u = axis.z >= real(0) ? real(0) : real(1);  // parallel to a cylinder
-    if (ra + u * dr < real(0)) u = dr > real(0) ? real(1) : real(0);         // the other nappe
-    // The two lines above choose an end itself: it is open too.
-    bool clamped_open = (u <= real(0) && open_start) || (u >= real(1) && open_end);
+    bool is_side = abs(u) <= real(1e18);
+    if (!is_side) u = axis.z >= real(0) ? real(0) : real(1);  // parallel to a cylinder
+    if (ra + u * dr < real(0)) {                              // the other nappe
+        u = dr > real(0) ? real(1) : real(0);
+        is_side = false;
+    }
+    // The two cases above choose an end itself: it is open too.
+    if ((u <= real(0) && open_start) || (u >= real(1) && open_end)) return found;
+    real within = clamp(u, real(0), real(1));
     RoundConeHit side;
-    if (!clamped_open && ball_entry(start, axis, ra, dr, clamp(u, real(0), real(1)), side)) {
+    // Up to a rounding error beyond an end the side counts: neither piece of a joint may leave the ray to the
+    // other. There the depth is known; as the leg of a triangle with the radius, it is lost to rounding where
+    // the normal is nearly across the ray, as on all of a piece that the ray almost follows.
+    if (is_side && abs(u - within) <= real(16) * real_epsilon) {
+        side.radius = ra + within * dr;
+        side.z = start.z + axis.z * within - depth;
+        side.u = within;
+        side.normal = real3(-(start.x + axis.x * within), -(start.y + axis.y * within), -depth) / side.radius;
+        is_side = side.radius > real(0);
+    } else {
+        is_side = ball_entry(start, axis, ra, dr, within, side);
+    }
+    if (is_side) {
         if (!found || side.z < hit.z) hit = side;
         found = true;
     }
