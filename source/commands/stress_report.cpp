@@ -14,10 +14,6 @@
 namespace strandlab {
 namespace {
 
-std::string percentile_text(const LogHistogram& values, double q) {
-    return values.count() == 0 ? "-" : significant(values.quantile(q), 2);
-}
-
 nlohmann::ordered_json iterations_json(const IterationHistogram& iterations) {
     if (iterations.count() == 0) return {};
     return {{"mean", json_number(iterations.mean())},
@@ -90,6 +86,10 @@ std::string_view verdict_text(StressVerdict verdict) {
 
 std::string device_text(const std::string& name) { return name.substr(0, name.find(" (")); }
 
+std::string quantile_text(const LogHistogram& values, double q) {
+    return values.count() == 0 ? "-" : significant(values.quantile(q), 2);
+}
+
 nlohmann::ordered_json rate_json(uint64_t count, uint64_t trials) {
     const Interval bounds = binomial_bounds(count, trials);
     return {{"count", count},
@@ -134,8 +134,8 @@ std::string stress_table(std::span<const StressCell> cells) {
         table.add_row(
             {cell.family->name, cell.label, device_text(cell.device), grouped(t.hits), grouped(t.misses),
              percent(double(t.undecided()) / double(std::max<uint64_t>(1, t.pairs))), grouped(t.false_misses),
-             grouped(t.false_hits), grouped(t.wrong_hits), percentile_text(t.distance, 0.5),
-             percentile_text(t.distance, 0.99), grouped(t.boxes.lost),
+             grouped(t.false_hits), grouped(t.wrong_hits), quantile_text(t.distance, 0.5),
+             quantile_text(t.distance, 0.99), grouped(t.boxes.lost),
              t.agreement.pairs == 0 ? "-" : grouped(t.agreement.beyond()), iterations_text(t.iterations),
              grouped(t.nan_hits), std::string(verdict_text(cell.judgement.verdict))});
     }

@@ -29,6 +29,9 @@ std::string_view verdict_text(StressVerdict verdict);
 /// A device's name without what follows in brackets.
 std::string device_text(const std::string& name);
 
+/// Two digits of a quantile; "-" of nothing.
+std::string quantile_text(const LogHistogram& values, double q);
+
 /// "mean / p99 / max" of the iterations per ray; "-" without any.
 std::string iterations_text(const IterationHistogram& iterations);
 

@@ -1,33 +1,18 @@
 // strandlab stress --self-intersection.
-#include "base/error.h"
-#include "base/file.h"
-#include "commands/stress_report.h"
-#include "commands/stress_run.h"
-#include "measure/statistics.h"
+#include "commands/stress_cells.h"
 #include "measure/stress_spawn.h"
-#include "report/result_json.h"
-#include "report/table.h"
 #include "report/text_format.h"
-
-#include <nlohmann/json.hpp>
-
-#include <cstdio>
 
 namespace strandlab {
 namespace {
 
-struct Cell {
-    const StressFamily* family = nullptr;
-    const PrimitiveChoice* choice = nullptr;
-    const TraceDevice* device = nullptr;
-    SpawnTally tally;
-    StressJudgement judgement;
+using Cell = DeviceCell<SpawnTally>;
 
-    bool has_ladder() const { return device->gpu() == nullptr; }
-};
+/// Whether several offsets were tried.
+bool has_ladder(const Cell& cell) { return cell.device->gpu() == nullptr; }
 
 std::string needed_text(const Cell& cell, double value) {
-    return !cell.has_ladder() ? "-" : value == 0 ? "0" : significant(value, 2);
+    return !has_ladder(cell) ? "-" : value == 0 ? "0" : significant(value, 2);
 }
 
 Table table_of(const std::vector<Cell>& cells) {
@@ -51,7 +36,7 @@ Table table_of(const std::vector<Cell>& cells) {
         const SpawnTally& t = cell.tally;
         const SpawnOffset& offset = cell.choice->primitive->spawn;
         table.add_row({cell.family->name, cell.choice->label(), device_text(cell.device->name()),
-                       grouped(t.hits), grouped(t.rays), cell.has_ladder() ? grouped(t.unmoved) : "-",
+                       grouped(t.hits), grouped(t.rays), has_ladder(cell) ? grouped(t.unmoved) : "-",
                        needed_text(cell, t.radii_needed), needed_text(cell, t.ulps_needed),
                        significant(offset.radii, 2), significant(offset.ulps, 2), grouped(t.self_hits),
                        grouped(t.own_hits), grouped(t.shadow_rays), grouped(t.shadow_differs),
@@ -60,27 +45,19 @@ Table table_of(const std::vector<Cell>& cells) {
     return table;
 }
 
-nlohmann::ordered_json to_json(const Cell& cell, uint64_t seed) {
+void add_json(const Cell& cell, nlohmann::ordered_json& object) {
     const SpawnTally& t = cell.tally;
     const SpawnOffset& offset = cell.choice->primitive->spawn;
-    nlohmann::ordered_json object;
-    object["family"] = cell.family->name;
-    object["primitive"] = cell.choice->label();
-    object["device"] = cell.device->name();
-    object["seed"] = seed;
     object["hits"] = t.hits;
     object["rays"] = t.rays;
     object["offset"] = {{"radii", offset.radii}, {"ulps", offset.ulps}};
     object["self_hits"] = rate_json(t.self_hits, t.rays);
-    if (cell.has_ladder()) {
+    if (has_ladder(cell)) {
         object["self_hits_unmoved"] = rate_json(t.unmoved, t.rays);
         object["needs"] = {{"radii", json_number(t.radii_needed)}, {"ulps", json_number(t.ulps_needed)}};
     }
     object["own_hits"] = t.own_hits;
     object["shadow_differs"] = rate_json(t.shadow_differs, t.shadow_rays);
-    object["verdict"] = verdict_text(cell.judgement.verdict);
-    object["reason"] = cell.judgement.text;
-    return object;
 }
 
 void add_chunk(const StressChunk& chunk, std::span<Cell> cells, std::span<PipelineStore> pipelines) {
@@ -108,26 +85,14 @@ int run_self_intersection(const StressRun& run) {
         if (device->name() == "cpu-double")
             fail(ExitCode::usage,
                  "--device cpu-double: --self-intersection is about float; pass cpu-float or a device");
-    std::vector<Cell> cells;
-    for (const StressFamily* family : run.families)
-        for (const PrimitiveChoice& choice : run.choices)
-            for (const auto& device : run.devices) cells.push_back({family, &choice, device.get(), {}, {}});
-    const size_t devices = run.devices.size();
-    std::vector<PipelineStore> pipelines(devices);
+    DeviceCells<SpawnTally> cells(run);
+    std::vector<PipelineStore> pipelines(run.devices.size());
     for_each_chunk(run, "self-intersection", [&](size_t family, size_t choice, const StressChunk& chunk) {
-        add_chunk(chunk, std::span(cells).subspan((family * run.choices.size() + choice) * devices, devices),
-                  pipelines);
+        add_chunk(chunk, cells.of(family, choice), pipelines);
     });
-    bool fails = false;
-    std::string lines;
-    for (Cell& cell : cells) {
-        cell.judgement = judge_spawned(cell.tally, *cell.choice->primitive, *cell.family);
-        fails |= cell.judgement.verdict == StressVerdict::fails;
-        lines += to_line(to_json(cell, run.seed)) + "\n";
-    }
-    std::fputs(table_of(cells).to_string(standard_output_style()).c_str(), stdout);
-    if (!run.json.empty()) write_file(run.json, lines);
-    return static_cast<int>(fails ? ExitCode::threshold : ExitCode::ok);
+    return cells.finish(
+        [](const Cell& cell) { return judge_spawned(cell.tally, *cell.choice->primitive, *cell.family); },
+        table_of, add_json);
 }
 
 }  // namespace strandlab

@@ -25,26 +25,34 @@ inline void require_invariants(const Curves& curves) {
                 throw std::logic_error("a number is not finite or a radius is negative");
 }
 
-/// True when the reader accepts the bytes; false when it throws an Error (bad_input) of one line.
+/// True when the call accepts the file "input"; false when it refuses it with an Error (bad_input) of one
+/// line that names it. Anything else is a finding: std::logic_error.
+template <class Call>
+bool accepts_input(const Call& call) {
+    try {
+        call();
+        return true;
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        if (error.code != ExitCode::bad_input || text.find("input") == std::string::npos ||
+            text.find('\n') != std::string::npos)
+            throw std::logic_error("not one line of bad input: " + text);
+        return false;
+    }
+}
+
+/// Whether the reader of an extension accepts the bytes.
 inline bool load_bytes(std::string_view extension, std::span<const std::byte> bytes, Basis basis,
                        const ByteSource* strands = nullptr) {
     const ByteSource source = ByteSource::from_memory("input", bytes);
     CurveOptions options;
     options.basis = basis;
     ImportReport report;
-    for (const ModelFormat& format : model_formats()) {
-        if (format.extension != extension) continue;
-        try {
-            require_invariants(format.load({source, strands, options, report}));
-            return true;
-        } catch (const Error& error) {
-            const std::string text = error.what();
-            if (error.code != ExitCode::bad_input || text.find("input") == std::string::npos ||
-                text.find('\n') != std::string::npos)
-                throw std::logic_error("not one line of bad input: " + text);
-            return false;
-        }
-    }
+    for (const ModelFormat& format : model_formats())
+        if (format.extension == extension)
+            return accepts_input([&] {
+                require_invariants(format.load({source, strands, options, report}));
+            });
     throw std::logic_error("no such format");
 }
 

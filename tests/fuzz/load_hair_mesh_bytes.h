@@ -7,10 +7,9 @@
 
 namespace strandlab {
 
-/// True when the mesh is accepted; false when it is refused with an Error (bad_input) of one line that names
-/// the file. Anything else is a finding: std::logic_error.
+/// Whether the mesh is accepted.
 inline bool load_hair_mesh_bytes(std::span<const std::byte> bytes) {
-    try {
+    return accepts_input([&] {
         HairMesh mesh = read_hair_mesh(ByteSource::from_memory("input", bytes));
         const std::string text = to_text(mesh);
         const ByteSource written =
@@ -18,16 +17,9 @@ inline bool load_hair_mesh_bytes(std::span<const std::byte> bytes) {
         if (to_text(read_hair_mesh(written)) != text)
             throw std::logic_error("writing and reading again changes the mesh");
         mesh.style.set_all("input", hair_mesh_parameters(), "strands=40");
-        if (mesh.style.integer("points") == 1) return true;
+        if (mesh.style.integer("points") == 1) return;
         require_invariants(grow_hair_mesh(mesh, mesh.style));
-        return true;
-    } catch (const Error& error) {
-        const std::string text = error.what();
-        if (error.code != ExitCode::bad_input || text.find("input") == std::string::npos ||
-            text.find('\n') != std::string::npos)
-            throw std::logic_error("not one line of bad input: " + text);
-        return false;
-    }
+    });
 }
 
 }  // namespace strandlab

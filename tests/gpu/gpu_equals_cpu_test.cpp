@@ -100,12 +100,8 @@ std::vector<std::string> variants() {
     return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Primitives, GpuEqualsCpu, testing::ValuesIn(variants()), [](const auto& test) {
-    std::string name = test.param;
-    for (char& c : name)
-        if (c == ':' || c == '=') c = '_';
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Primitives, GpuEqualsCpu, testing::ValuesIn(variants()),
+                         [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
 }  // namespace strandlab

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <optional>
+#include <string>
 
 namespace strandlab {
 
@@ -36,5 +37,12 @@ class GpuTest : public testing::Test {
     static inline std::optional<Device> device_;
     static inline std::string why_none_;
 };
+
+/// What a test of a primitive may be called.
+inline std::string test_name(std::string label) {
+    for (char& c : label)
+        if (c == ':' || c == '=') c = '_';
+    return label;
+}
 
 }  // namespace strandlab

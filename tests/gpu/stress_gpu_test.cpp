@@ -73,12 +73,7 @@ TEST_P(StressOnDevice, RaysLeaveHitsAndShadowRaysAgree) {
 
 INSTANTIATE_TEST_SUITE_P(Primitives, StressOnDevice,
                          testing::Values("lss", "rocaps", "prhi", "dots", "lss:segments=1"),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             for (char& c : name)
-                                 if (c == ':' || c == '=') c = '_';
-                             return name;
-                         });
+                         [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
 }  // namespace strandlab

@@ -1,31 +1,14 @@
 // Proof that the suite can see failures: the published algorithms fail where, and about as often as, a
 // prototype of the same algorithms did on rays of its own; and the double versions leave rounding alone.
-#include "measure/stress_limits.h"
+#include "unit/support/stress_tally.h"
 
 #include <gtest/gtest.h>
 
 namespace strandlab {
 namespace {
 
-StressTally tally_of(const std::string& label, const StressFamily& family, Precision precision,
-                     uint64_t count) {
-    const PrimitiveChoice choice = parse_primitive(label);
-    const StressRange range{&family, default_stress_seed, 0, count};
-    const Curves strands = stress_strands(range);
-    const StressPairs pairs = stress_pairs(range, choice.primitive->surface(strands, choice.options));
-    const Geometry geometry = choice.primitive->build(strands, choice.options);
-    StressTally tally;
-    const auto hits = intersect_pairs(*choice.primitive, geometry, pairs, precision, tally.boxes);
-    add_errors(pairs, hits, 0, tally);
-    return tally;
-}
-
-StressVerdict verdict_of(const std::string& label, const StressFamily& family, Precision precision,
-                         const StressTally& tally) {
-    const bool precise = precision == Precision::precise;
-    const std::string primitive = parse_primitive(label).primitive->name;
-    return judge(tally, stress_limits(primitive, family, precise), family, precise).verdict;
-}
+using testing_tools::tally_of;
+using testing_tools::verdict_of;
 
 double share(uint64_t count, uint64_t of) { return double(count) / double(of); }
 double false_misses(const StressTally& t) { return share(t.false_misses, t.hits); }

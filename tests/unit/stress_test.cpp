@@ -1,8 +1,8 @@
 // The families of stress pairs, and that the suite sees the errors it is made to see.
 #include "measure/stress.h"
 
-#include "measure/stress_limits.h"
 #include "strands/bezier.h"
+#include "unit/support/stress_tally.h"
 
 #include <gtest/gtest.h>
 
@@ -17,24 +17,12 @@ constexpr uint64_t pair_count = 1500;
 
 StressTally tally_of(const std::string& label, const StressFamily& family, Precision precision,
                      uint64_t count = pair_count) {
-    const PrimitiveChoice choice = parse_primitive(label);
-    const StressRange range{&family, default_stress_seed, 0, count};
-    const Curves strands = stress_strands(range);
-    const StressPairs pairs = stress_pairs(range, choice.primitive->surface(strands, choice.options));
-    const Geometry geometry = choice.primitive->build(strands, choice.options);
-    StressTally tally;
-    const auto hits = intersect_pairs(*choice.primitive, geometry, pairs, precision, tally.boxes);
-    add_errors(pairs, hits, 3, tally);
-    return tally;
+    return testing_tools::tally_of(label, family, precision, count);
 }
 
 StressVerdict verdict_of(const std::string& label, const std::string& name, Precision precision) {
     const StressFamily& family = stress_family(name);
-    const bool precise = precision == Precision::precise;
-    const std::string primitive = parse_primitive(label).primitive->name;
-    return judge(tally_of(label, family, precision), stress_limits(primitive, family, precise), family,
-                 precise)
-        .verdict;
+    return testing_tools::verdict_of(label, family, precision, tally_of(label, family, precision));
 }
 
 TEST(Stress, FamiliesHaveDecisiveHitsAndMisses) {
