@@ -79,7 +79,7 @@ TEST_F(StressTest, BoxesAreWatertight) {
                                  "far 1e6", "--json", "cells.jsonl"});
     expect_success(outcome);
     EXPECT_NE(outcome.output.find("1,600 pairs"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find(": 0 lost by a slab test in float, 0 outside of their box"),
+    EXPECT_NE(outcome.output.find(" leaf hits, 0 lost by a slab test in float, 0 outside of their box"),
               std::string::npos)
         << outcome.output;
     EXPECT_EQ(json_lines("cells.jsonl").size(), 8u);
