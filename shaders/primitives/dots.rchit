@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Closest hit of the triangle strips: the curve parameter from the barycentrics, and from the joints'
+// The nearest hit of the triangle strips: the curve parameter from the barycentrics, and from the joints'
 // records the normal and the round place of the hit. A hit that moves keeps the triangle's place in
 // traversal; only what is written moves.
 #include "shared/trace.glsl"
@@ -11,9 +11,6 @@ layout(constant_id = 16) const uint round_normals = 1;
 layout(constant_id = 17) const uint round_offset = 0;
 layout(constant_id = 18) const float width_factor = 1.0;
 
-layout(location = 0) rayPayloadInEXT TracePayload payload;
-hitAttributeEXT vec2 barycentrics;
-
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer IndexBuffer { uint items[]; };
 
 // The shading records begin with one index a curve: the record of its first joint.
@@ -22,21 +19,18 @@ DotsJoint fetch_joint(GeometryRow row, uint index) {
     return dots_joint(records.items[2u * index], records.items[2u * index + 1u]);
 }
 
-void main() {
-    GeometryRow row = fetch_row(gl_InstanceCustomIndexEXT);
-    Leaf leaf = fetch_leaf(row, gl_PrimitiveID);
+Hit finish_hit(GeometryRow row, Leaf leaf, vec2 barycentrics, vec3 direction, float tmin, float t,
+               out vec3 normal) {
     uint quad = (leaf_flags(leaf) >> 2) & 1u;
     uint triangle = (leaf_flags(leaf) >> 3) & 1u;
-    float t = gl_HitTEXT;
     float along = dots_along(barycentrics, triangle);
     if (wants_normals || round_offset != 0u) {
         uint start = IndexBuffer(row.shading_records).items[leaf.curve] + leaf_piece(leaf);
-        vec3 normal;
-        dots_finish(gl_ObjectRayDirectionEXT, gl_RayTminEXT, fetch_joint(row, start),
-                    fetch_joint(row, start + 1u), quad, triangle, barycentrics, width_factor,
-                    round_normals != 0u, round_offset != 0u, t, along, normal);
-        payload.normal = normalize(vec3(normal * gl_WorldToObjectEXT));
+        dots_finish(direction, tmin, fetch_joint(row, start), fetch_joint(row, start + 1u), quad, triangle,
+                    barycentrics, width_factor, round_normals != 0u, round_offset != 0u, t, along, normal);
     }
     float u = (float(leaf_piece(leaf)) + along) / float(leaf_pieces(leaf));
-    payload.hit = Hit(t, u, row.first_curve + leaf.curve, row.instance);
+    return Hit(t, u, row.first_curve + leaf.curve, row.instance);
 }
+
+#include "shared/triangle_entry.glsl"

@@ -14,7 +14,9 @@
 // Every local of a function with error-free transformations carries the mark: it does not reach callees.
 #define PRECISE precise
 #define FUNCTION
-#define COUNT_ITERATION  // counted in C++ only
+#ifndef COUNT_ITERATION
+#define COUNT_ITERATION  // what traces rays counts them (shared/trace.glsl)
+#endif
 
 // Set only where the arithmetic probe (source/gpu/arithmetic.h) has shown that fma rounds once.
 layout(constant_id = 15) const bool hardware_fma = false;

@@ -1,8 +1,13 @@
-// What every ray-tracing stage needs: the push constants, the tables they address, the payload.
+// What every ray-tracing stage needs: the push constants, the tables they address, the payload. With RAY_QUERY
+// the same for a compute shader that traces by ray queries (shared/query.glsl).
 #ifndef STRANDLAB_TRACE_GLSL
 #define STRANDLAB_TRACE_GLSL
 
+#ifdef RAY_QUERY
+#extension GL_EXT_ray_query : require
+#else
 #extension GL_EXT_ray_tracing : require
+#endif
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 
@@ -20,6 +25,7 @@ layout(constant_id = 4) const bool has_one_row = false;   // then it lies in the
 layout(constant_id = 5) const bool is_in_place = false;   // no instance is moved
 layout(constant_id = 6) const bool early_out = true;      // leave what a ray passes before anything else
 layout(constant_id = 7) const bool gentle_first = true;   // the short way for rays that cross a piece gently
+layout(constant_id = 8) const bool counts_work = false;   // for profiles only: never where time is measured
 
 struct Ray {
     vec3 origin;
@@ -51,6 +57,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Ro
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer LeafBuffer { Leaf items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Vec4Buffer { vec4 items[]; };
 
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer CounterBuffer { uint items[]; };
+
 GeometryRow fetch_row(uint custom_index) {
     if (has_one_row) return parameters.row;
     return RowBuffer(parameters.rows).items[custom_index];
@@ -73,11 +81,33 @@ vec2 leaf_interval(Leaf leaf) {
 }
 
 // Index of the current ray within its buffer.
+#ifdef RAY_QUERY
+uint query_ray;
+uint ray_index() { return query_ray; }
+#else
 uint ray_index() { return parameters.first_ray + gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x; }
+#endif
 
 // Whether the leaf belongs to another ray's curves.
 bool is_foreign(GeometryRow row, Leaf leaf) {
     return curves_of_a_ray != 0u && (row.first_curve + leaf.curve) / curves_of_a_ray != ray_index();
+}
+
+// Iterations of an intersector's search on the current leaf.
+uint iteration_count = 0u;
+#define COUNT_ITERATION \
+    if (counts_work) ++iteration_count;
+
+// Adds a leaf to the ray's counters: leaves, those that were searched, iterations, hits reported.
+void count_leaf(bool is_reported) {
+    if (!counts_work) return;
+    CounterBuffer counters = CounterBuffer(parameters.counters);
+    uint first = 4u * ray_index();
+    atomicAdd(counters.items[first], 1u);
+    atomicAdd(counters.items[first + 1u], iteration_count > 0u ? 1u : 0u);
+    atomicAdd(counters.items[first + 2u], iteration_count);
+    atomicAdd(counters.items[first + 3u], is_reported ? 1u : 0u);
+    iteration_count = 0u;
 }
 
 #endif

@@ -35,10 +35,13 @@ struct TraceParameters {
     uint ray_flags;   // gl_RayFlags* besides opaque
     uint is_shadow;   // not 0: only whether anything is hit
     GeometryRow row;  // the only one, where there is but one
+    address counters; // 4 uints per ray; used only by shaders that count their work
+    uint width;       // of the launch, for ray queries: the pipeline knows it
+    uint is_tiled;    // likewise: neighbours lie in both directions, work groups are squares
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TraceParameters) == 104 && sizeof(GeometryRow) == 48);
+static_assert(sizeof(TraceParameters) == 120 && sizeof(GeometryRow) == 48);
 }  // namespace strandlab::layout
 #else
 #undef address

@@ -84,8 +84,9 @@ fs::path unfinished_name(const fs::path& target) {
 std::atomic<bool> enabled{true};
 
 const Cache& program_cache() {
-    static const Cache cache(default_cache_folder());
-    return cache;
+    // Never destroyed: devices that close at the program's end still write to it.
+    static const Cache* const cache = new Cache(default_cache_folder());
+    return *cache;
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ void measure_set(std::vector<Variant>& variants, const CaseInput& input, const M
 }  // namespace
 
 void print_ablation(BenchOptions& options, bool measure) {
-    const TraceDevice device({options.device.device, options.device.validation});
+    const TraceDevice device(options.device.options());
     apply_preset(options, device.info());
     options.rays.error_rays = 0;
     const Caps caps = options.primitives.scene_caps();

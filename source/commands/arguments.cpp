@@ -106,6 +106,16 @@ void DeviceArguments::add_to(CLI::App& app) {
     app.add_option("--device", device,
                    "part of a device's name, its kind (cpu, discrete...) or number; see strandlab info");
     app.add_flag("--validation", validation, "Vulkan validation layers; a message is an error");
+    app.add_option(
+           "--traversal", traversal,
+           "pipeline (ray tracing), query (ray queries in a compute shader, where the device has them), "
+           "auto (the faster one, measured once for each device and shader)")
+        ->capture_default_str();
+}
+
+DeviceOptions DeviceArguments::options() const {
+    return {
+        .selector = device, .validation = validation, .ray_query = asked_traversal() != Traversal::pipeline};
 }
 
 std::string primitive_help() {

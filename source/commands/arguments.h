@@ -1,9 +1,11 @@
 // Options that several commands share, and what they become.
 #pragma once
 
+#include "gpu/device.h"
 #include "primitives/primitive.h"
 #include "scene/scene.h"
 #include "strands/strands.h"
+#include "trace/traversal.h"
 
 #include <CLI/CLI.hpp>
 
@@ -51,8 +53,12 @@ struct PrimitiveArguments {
 struct DeviceArguments {
     std::string device;
     bool validation = false;
+    std::string traversal = "pipeline";
 
     void add_to(CLI::App& app);
+    /// Throws Error (usage) for a traversal that there is not.
+    DeviceOptions options() const;
+    Traversal asked_traversal() const { return parse_traversal(traversal); }
 };
 
 /// The text below the options of a command that takes primitives: every primitive with its parameters.

@@ -82,6 +82,10 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_flag("--explain", explain, "only print what tracing leaves out for these scenes and primitives");
     app.add_flag("--ablation", ablation,
                  "only measure what each of that saves, and that answers stay the same");
+    app.add_flag(
+        "--profile", profile,
+        "also count what each trace takes (leaves, iterations, hits) in an instrumented run of its own, "
+        "and measure the floors of its traversal");
     app.add_flag("--no-normals", no_normals, "write t, u and curve only: 16 bytes a ray")
         ->excludes("--images");
     app.add_flag("--no-embree", no_embree, "no row for Embree's round curves");
@@ -96,6 +100,7 @@ void BenchOptions::check() const {
     models.curve_options();
     shard();
     order();
+    device.options();
     if (!rays.resolution.empty()) resolutions();
     check_skips(no_skips);
     const std::pair<const char*, double> limits[] = {
@@ -114,10 +119,17 @@ SceneOptions::Order BenchOptions::order() const {
     fail(ExitCode::usage, "--leaf-order {}: must be auto, file or median", leaf_order);
 }
 
+DeviceOptions BenchOptions::device_options() const {
+    DeviceOptions options = device.options();
+    options.pipeline_statistics = profile;
+    return options;
+}
+
 void BenchOptions::apply_to(SceneOptions& scene) const {
     scene.order = order();
     scene.compact = !no_compaction;
     scene.low_memory = low_memory;
+    scene.traversal = device.asked_traversal();
     scene.normals = !no_normals;
     scene.no_skips = no_skips;
 }
@@ -153,6 +165,7 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
     command.add("--error-rays", std::to_string(row.settings.error_rays));
     command.add("--repeat", std::to_string(row.settings.repeat));
     if (!options.device.device.empty()) command.add("--device", options.device.device);
+    if (options.device.traversal != "pipeline") command.add("--traversal", options.device.traversal);
     if (options.leaf_order != "auto") command.add("--leaf-order", options.leaf_order);
     command.flag("--no-compaction", options.no_compaction);
     command.flag("--low-memory", options.low_memory);

@@ -32,7 +32,7 @@ struct BenchOptions {
     bool resume = false;
     bool no_embree = false, no_compaction = false, no_normals = false, low_memory = false;
     std::vector<std::string> no_skips;
-    bool explain = false, ablation = false;
+    bool explain = false, ablation = false, profile = false;
 
     void add_to(CLI::App& app);
     bool has_error_rays() const;  // --error-rays was given
@@ -41,6 +41,7 @@ struct BenchOptions {
     void check() const;
     Shard shard() const { return parse_shard(shard_text); }
     SceneOptions::Order order() const;
+    DeviceOptions device_options() const;
     /// Sets what of the options says how scenes are put on the device.
     void apply_to(SceneOptions& scene) const;
     /// Of --resolution, "WIDTHxHEIGHT" separated by commas; throws Error (usage).

@@ -9,6 +9,7 @@
 #include "measure/pareto.h"
 #include "report/case_images.h"
 #include "report/images.h"
+#include "report/profile_table.h"
 #include "report/result_json.h"
 #include "report/result_table.h"
 #include "strands/models.h"
@@ -102,7 +103,7 @@ struct BenchRun::Block {
 
 BenchRun::BenchRun(BenchOptions& options)
     : options_(options),
-      device_({options.device.device, options.device.validation}),
+      device_(options.device_options()),
       caps_(options.primitives.scene_caps()),
       curve_options_(options.models.curve_options()),
       shard_(options.shard()),
@@ -211,6 +212,7 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
     for (auto& [number, row] : block.rows) rows.push_back(std::move(row));
     rows_.insert(rows_.end(), rows.begin(), rows.end());
     if (!rows.empty()) fmt::print("\n{}", result_table(rows));
+    if (options_.profile) fmt::print("\n{}", profile_table(rows));
     std::fflush(stdout);
 }
 
@@ -237,9 +239,11 @@ ResultRow BenchRun::base_row(const Block& block, size_t set, size_t primitive) c
     row.model = block.facts;
     row.rays = block.ray_facts[set];
     row.device = facts_of(device_.info(), device_.has_validation());
-    row.settings = {*options_.repeat,    warm_up_of(device_.info()), options_.rays.error_rays,
-                    options_.leaf_order, !options_.no_compaction,    !options_.no_normals,
-                    options_.low_memory, options_.no_skips,          caps_};
+    row.settings = {*options_.repeat,         warm_up_of(device_.info()),
+                    options_.rays.error_rays, options_.leaf_order,
+                    !options_.no_compaction,  !options_.no_normals,
+                    options_.low_memory,      options_.device.traversal,
+                    options_.no_skips,        caps_};
     row.seed = options_.rays.seed;
     row.context = context_;
     if (primitive == choices_.size()) return with_embree_facts(std::move(row));
@@ -293,6 +297,8 @@ void BenchRun::measure_set(Block& block, size_t set, const std::vector<const Pre
         row.positions = samples[i].positions;
         row.group = name;
         if (baseline != nullptr) row.ratio = ratio_to(samples[baseline_place], samples[i], baseline->choice);
+        row.cost = traced[i]->traced->cost();  // the first rays may have chosen the traversal
+        if (options_.profile) row.profile = profile_of(block.input, *traced[i]->traced, rays, row.seed);
         add(block, std::move(row));
     }
 }

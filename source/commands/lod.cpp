@@ -154,7 +154,7 @@ int run(const Options& options) {
     RayArguments ray_arguments;
     ray_arguments.camera = options.camera;
     ray_arguments.check();
-    const TraceDevice device({options.device.device, options.device.validation});
+    const TraceDevice device(options.device.options());
     const Scene full_scene = scene_with(options.model, 1);
     const Camera camera = camera_of(full_scene, ray_arguments, size);
     const glm::dvec3 to_light = world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7)));

@@ -79,9 +79,10 @@ int run(const Options& options) {
     const Occluder occluder(scene.occluder);
     Rays rays = whole_rays;
     occluder.cut(rays.rays);
-    const TraceDevice device({options.device.device, options.device.validation});
+    const TraceDevice device(options.device.options());
     CaseInput input{device, scene, curves, 1, 0, {}};
     input.options.normals = true;
+    input.options.traversal = options.device.asked_traversal();
     input.options.ray_extent = object_extent(scene, extent_of(rays));
     const PreparedCase prepared = prepare_case(input, choice);
     const TraceResult trace = prepared.traced->trace(rays, {});

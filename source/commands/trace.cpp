@@ -63,10 +63,11 @@ int run(const Options& options) {
     const PrimitiveChoice choice = options.primitive.choices().front();
     const Scene scene = load_scene(options.curves, {}, options.strands);
     const Rays rays = load_ray_file(options.rays);
-    const TraceDevice device({options.device.device, options.device.validation});
+    const TraceDevice device(options.device.options());
     const Curves curves = all_curves(scene);
     CaseInput input{device, scene, curves};
     input.options.normals = !options.no_normals && !options.shadow;
+    input.options.traversal = options.device.asked_traversal();
     input.options.ray_extent = object_extent(scene, extent_of(rays));
     const PreparedCase prepared = prepare_case(input, choice);
     const TraceResult result =

@@ -88,8 +88,8 @@ Verdict judge(const CaseInput& input, const PreparedCase& prepared, const Measur
     verdict.allowed_distance = std::max(verdict.tolerance.distance_p99, 1.5 * ulp_floor(rays, own));
     if (input.scene.is_plain() && choice.primitive->cpu.counted != nullptr) {
         const Geometry geometry = choice.primitive->build(input.curves, choice.options);
-        for (const uint32_t count : cpu_iterations(geometry, *choice.primitive, rays.sample_rays))
-            verdict.iterations.add(count);
+        for (const RayWork& work : cpu_work(geometry, *choice.primitive, rays.sample_rays))
+            verdict.iterations.add(work.iterations);
     }
     if (with_embree && input.scene.is_plain() && !rays.shadow)
         verdict.embree = second_opinion(input.curves, rays, sample, surfaces[0], own);
@@ -143,7 +143,7 @@ int run(Options& options) {
     const std::vector<PrimitiveChoice> choices = options.primitives.choices();
     const Resolution size =
         parse_resolution(options.rays.resolution.empty() ? "320x180" : options.rays.resolution);
-    const TraceDevice device({options.device.device, options.device.validation});
+    const TraceDevice device(options.device.options());
     const bool with_embree = embree_available() && !options.no_embree;
     Table table({{"model", "", true},
                  {"rays", "", true},
@@ -174,6 +174,7 @@ int run(Options& options) {
         const RaySets rays(scene, curves, options.rays, size, options.primitives.scene_caps());
         CaseInput input{device, scene, curves, 1, 0, {}};
         input.options.normals = true;
+        input.options.traversal = options.device.asked_traversal();
         input.options.ray_extent = object_extent(scene, rays.extent());
         Progress progress(scene.name, choices.size() * rays.sets().size());
         for (const PrimitiveChoice& choice : choices) {

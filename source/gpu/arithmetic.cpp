@@ -86,7 +86,9 @@ std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<c
         make_buffer(device, std::span<const ArithmeticAnswer>(answers), Buffer::Use::storage);
     const auto count = static_cast<uint32_t>(probes.size());
     const PushConstants constants{input.address(), output.address(), count, 0};
-    pipeline.run(std::as_bytes(std::span(&constants, 1)), (count + group_size - 1) / group_size);
+    const ComputePipeline::Dispatch dispatch{std::as_bytes(std::span(&constants, 1)),
+                                             (count + group_size - 1) / group_size};
+    pipeline.run({&dispatch, 1});
     output.download(std::as_writable_bytes(std::span(answers)));
     return answers;
 }

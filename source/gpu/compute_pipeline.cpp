@@ -1,7 +1,11 @@
 #include "gpu/compute_pipeline.h"
 
 #include "gpu/device_state.h"
+#include "gpu/pipeline_statistics.h"
 #include "gpu/specialization.h"
+#include "gpu/timer.h"
+
+#include <optional>
 
 namespace strandlab {
 
@@ -9,6 +13,7 @@ struct ComputePipeline::Implementation {
     Device device;
     vk::raii::PipelineLayout layout{nullptr};
     vk::raii::Pipeline pipeline{nullptr};
+    std::optional<Timer> timer;
 };
 
 ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t> code,
@@ -26,7 +31,9 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t>
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
                                                       &specialization.info);
         self.pipeline =
-            vk::raii::Pipeline(state.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *self.layout));
+            vk::raii::Pipeline(state.device, state.pipeline_cache,
+                               vk::ComputePipelineCreateInfo(statistics_flags(state), stage, *self.layout));
+        self.timer.emplace(state);
     });
 }
 
@@ -34,16 +41,25 @@ ComputePipeline::ComputePipeline(ComputePipeline&&) noexcept = default;
 ComputePipeline& ComputePipeline::operator=(ComputePipeline&&) noexcept = default;
 ComputePipeline::~ComputePipeline() = default;
 
-void ComputePipeline::run(std::span<const std::byte> push_constants, uint32_t groups) const {
+double ComputePipeline::run(std::span<const Dispatch> dispatches) const {
     const Implementation& self = *implementation_;
     self.device.state().run("computing", [&](const vk::raii::CommandBuffer& commands) {
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, *self.pipeline);
-        commands.pushConstants<std::byte>(
-            *self.layout, vk::ShaderStageFlagBits::eCompute, 0,
-            {static_cast<uint32_t>(push_constants.size()), push_constants.data()});
-        commands.dispatch(groups, 1, 1);
+        self.timer->begin(commands);
+        for (const Dispatch& dispatch : dispatches) {
+            commands.pushConstants<std::byte>(
+                *self.layout, vk::ShaderStageFlagBits::eCompute, 0,
+                {static_cast<uint32_t>(dispatch.push_constants.size()), dispatch.push_constants.data()});
+            commands.dispatch(dispatch.columns, dispatch.rows, 1);
+        }
+        self.timer->end(commands);
         full_barrier(commands);
     });
+    return self.timer->milliseconds();
+}
+
+std::vector<ShaderStatistic> ComputePipeline::statistics() const {
+    return statistics_of(implementation_->device.state(), *implementation_->pipeline);
 }
 
 }  // namespace strandlab

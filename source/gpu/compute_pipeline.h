@@ -1,8 +1,8 @@
-// A compute shader with push constants: for small jobs beside tracing.
+// A compute shader with push constants: for small jobs beside tracing, and for tracing by ray queries.
 #pragma once
 
 #include "gpu/device.h"
-#include "gpu/ray_tracing_pipeline.h"
+#include "gpu/trace_pipeline.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,8 +19,15 @@ class ComputePipeline {
     ComputePipeline& operator=(ComputePipeline&&) noexcept;
     ~ComputePipeline();
 
-    /// Runs groups x 1 x 1 work groups and waits.
-    void run(std::span<const std::byte> push_constants, uint32_t groups) const;
+    /// columns x rows x 1 work groups with their push constants.
+    struct Dispatch {
+        std::span<const std::byte> push_constants;
+        uint32_t columns = 1, rows = 1;
+    };
+
+    /// Runs one after another and waits; the device time around them in milliseconds.
+    double run(std::span<const Dispatch> dispatches) const;
+    std::vector<ShaderStatistic> statistics() const;
 
     struct Implementation;
 

@@ -1,4 +1,6 @@
 // Choosing and opening a device.
+#include "base/cache.h"
+#include "base/hash.h"
 #include "base/text.h"
 #include "gpu/device_state.h"
 
@@ -56,21 +58,54 @@ uint32_t compute_family(const vk::raii::PhysicalDevice& physical) {
          physical.getProperties().deviceName.data());
 }
 
-vk::raii::Device open_device(const vk::raii::PhysicalDevice& physical, uint32_t family) {
+bool has_extension(const vk::raii::PhysicalDevice& physical, std::string_view name) {
+    const auto all = physical.enumerateDeviceExtensionProperties();
+    return std::any_of(all.begin(), all.end(), [&](const vk::ExtensionProperties& extension) {
+        return name == extension.extensionName.data();
+    });
+}
+
+/// Opens the device with what the state says is enabled beyond the necessary.
+vk::raii::Device open_device(const DeviceState& state) {
     const float priority = 1.0f;
-    const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-    const std::vector<const char*> extensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-                                                 VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
-                                                 VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+    const vk::DeviceQueueCreateInfo queue({}, state.queue_family, 1, &priority);
+    std::vector<const char*> extensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                           VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+                                           VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+    if (state.has_ray_query) extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    if (state.has_pipeline_statistics)
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceVulkan12Features,
                        vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
-                       vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>
+                       vk::PhysicalDeviceRayTracingPipelineFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR,
+                       vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR>
         chain;
     chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue).setPEnabledExtensionNames(extensions);
     chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress = true;
     chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = true;
     chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline = true;
-    return {physical, chain.get<vk::DeviceCreateInfo>()};
+    chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery = true;
+    chain.get<vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR>().pipelineExecutableInfo = true;
+    if (!state.has_ray_query) chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    if (!state.has_pipeline_statistics)
+        chain.unlink<vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR>();
+    return {state.physical, chain.get<vk::DeviceCreateInfo>()};
+}
+
+/// Compiled shaders of earlier runs on this device and driver. Drivers check what they are given, and the
+/// cache that it came whole.
+void open_pipeline_cache(DeviceState& state) {
+    const vk::PhysicalDeviceProperties basic = state.physical.getProperties();
+    Hash device;
+    device.add(basic.pipelineCacheUUID.data(), basic.pipelineCacheUUID.size());
+    state.pipeline_cache_key =
+        fmt::format("pipelines/1 vendor={} device={} driver={} uuid={:016x}", basic.vendorID, basic.deviceID,
+                    basic.driverVersion, device.value());
+    const std::vector<std::byte> bytes =
+        cache_read(state.pipeline_cache_key).value_or(std::vector<std::byte>());
+    state.pipeline_cache_hash = Hash().add(bytes.data(), bytes.size()).value();
+    state.pipeline_cache =
+        vk::raii::PipelineCache(state.device, vk::PipelineCacheCreateInfo({}, bytes.size(), bytes.data()));
 }
 
 }  // namespace
@@ -81,6 +116,21 @@ uint32_t DeviceState::memory_type(uint32_t allowed,
         for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
             if ((allowed & (1u << i)) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
     fail(ExitCode::no_device, "{}: no memory of the kind that is needed", info.name);
+}
+
+DeviceState::~DeviceState() {
+    if (!*pipeline_cache) return;
+    try {
+        const std::vector<uint8_t> data = pipeline_cache.getData();
+        const auto bytes = std::as_bytes(std::span(data));
+        // Drivers that keep their own files (Mesa) give a header alone.
+        constexpr size_t header_bytes = 32;
+        if (bytes.size() > header_bytes &&
+            Hash().add(bytes.data(), bytes.size()).value() != pipeline_cache_hash)
+            cache_write(pipeline_cache_key, bytes);
+    } catch (const std::exception&) {
+        // A cache that could not be kept is the same as none.
+    }
 }
 
 Device::Device(const DeviceOptions& options) : state_(std::make_shared<DeviceState>()) {
@@ -95,7 +145,12 @@ Device::Device(const DeviceOptions& options) : state_(std::make_shared<DeviceSta
         s.physical = std::move(all[chosen]);
         s.info = infos[chosen];
         s.queue_family = compute_family(s.physical);
-        s.device = open_device(s.physical, s.queue_family);
+        s.has_ray_query = options.ray_query && s.info.has_ray_query;
+        s.has_pipeline_statistics =
+            options.pipeline_statistics &&
+            has_extension(s.physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        s.device = open_device(s);
+        open_pipeline_cache(s);
         s.queue = s.device.getQueue(s.queue_family, 0);
         s.pool = vk::raii::CommandPool(s.device, {vk::CommandPoolCreateFlagBits::eTransient, s.queue_family});
         s.memory = s.physical.getMemoryProperties();
@@ -109,6 +164,8 @@ Device::Device(const DeviceOptions& options) : state_(std::make_shared<DeviceSta
 }
 
 const DeviceInfo& Device::info() const { return state_->info; }
+
+bool Device::can_query_rays() const { return state_->has_ray_query; }
 
 bool Device::has_validation() const { return state_->validation; }
 

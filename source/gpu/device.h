@@ -45,6 +45,10 @@ struct DeviceOptions {
     std::string selector;
     /// Validation layers, with synchronization checks; every message is kept.
     bool validation = false;
+    /// Enables ray queries, where the device has them.
+    bool ray_query = false;
+    /// Enables statistics of compiled shaders, where the driver has them.
+    bool pipeline_statistics = false;
 };
 
 /// All Vulkan devices of the machine; an Error (no_device) says what to install when there is no loader.
@@ -62,6 +66,8 @@ class Device {
     /// Messages of the validation layers so far; empty when they are off.
     std::vector<std::string> validation_messages() const;
     bool has_validation() const;
+    /// Opened with ray queries, and it has them.
+    bool can_query_rays() const;
 
     DeviceState& state() const { return *state_; }
 

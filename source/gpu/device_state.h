@@ -51,14 +51,24 @@ std::unique_ptr<InstanceState> make_instance(bool validation);
 DeviceInfo describe(const vk::raii::PhysicalDevice& physical);
 
 struct DeviceState {
+    DeviceState() = default;
+    DeviceState(const DeviceState&) = delete;
+    DeviceState& operator=(const DeviceState&) = delete;
+    ~DeviceState();
+
     std::unique_ptr<InstanceState> instance;
     vk::raii::PhysicalDevice physical{nullptr};
     DeviceInfo info;
     bool validation = false;
+    bool has_ray_query = false;            // enabled
+    bool has_pipeline_statistics = false;  // enabled
     uint32_t queue_family = 0;
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     vk::raii::CommandPool pool{nullptr};
+    vk::raii::PipelineCache pipeline_cache{nullptr};
+    std::string pipeline_cache_key;    // of base/cache.h
+    uint64_t pipeline_cache_hash = 0;  // of what was read
     vk::PhysicalDeviceMemoryProperties memory;
     vk::PhysicalDeviceAccelerationStructurePropertiesKHR structure_limits;
     vk::PhysicalDeviceRayTracingPipelinePropertiesKHR pipeline_limits;

@@ -1,6 +1,7 @@
 #include "gpu/ray_tracing_pipeline.h"
 
 #include "gpu/device_state.h"
+#include "gpu/pipeline_statistics.h"
 #include "gpu/specialization.h"
 #include "gpu/timer.h"
 
@@ -91,9 +92,9 @@ RayTracingPipeline::RayTracingPipeline(const Device& device, const PipelineStage
                                           0, push_constant_bytes);
         self.layout =
             vk::raii::PipelineLayout(state.device, vk::PipelineLayoutCreateInfo({}, nullptr, range));
-        vk::RayTracingPipelineCreateInfoKHR info({}, list.infos, groups, 1);
+        vk::RayTracingPipelineCreateInfoKHR info(statistics_flags(state), list.infos, groups, 1);
         info.layout = *self.layout;
-        self.pipeline = vk::raii::Pipeline(state.device, nullptr, nullptr, info);
+        self.pipeline = vk::raii::Pipeline(state.device, nullptr, state.pipeline_cache, info);
         make_table(device, self);
         self.timer.emplace(state);
     });
@@ -102,6 +103,10 @@ RayTracingPipeline::RayTracingPipeline(const Device& device, const PipelineStage
 RayTracingPipeline::RayTracingPipeline(RayTracingPipeline&&) noexcept = default;
 RayTracingPipeline& RayTracingPipeline::operator=(RayTracingPipeline&&) noexcept = default;
 RayTracingPipeline::~RayTracingPipeline() = default;
+
+std::vector<ShaderStatistic> RayTracingPipeline::statistics() const {
+    return statistics_of(implementation_->device.state(), *implementation_->pipeline);
+}
 
 double RayTracingPipeline::run(std::span<const Launch> launches) const {
     const Implementation& self = *implementation_;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/trace_pipeline.h"
 
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace strandlab {
@@ -17,26 +17,17 @@ struct PipelineStages {
     std::span<const uint32_t> ray_generation, miss, closest_hit, intersection, any_hit;
 };
 
-/// Specialization constants (id, bits), given to every stage; ids that a stage lacks are ignored.
-using PipelineConstants = std::vector<std::pair<uint32_t, uint32_t>>;
-
-class RayTracingPipeline {
+class RayTracingPipeline : public TracePipeline {
   public:
     /// Compiles the stages; push_constant_bytes is the size of the block that all stages share.
     RayTracingPipeline(const Device& device, const PipelineStages& stages, const PipelineConstants& constants,
                        uint32_t push_constant_bytes);
     RayTracingPipeline(RayTracingPipeline&&) noexcept;
     RayTracingPipeline& operator=(RayTracingPipeline&&) noexcept;
-    ~RayTracingPipeline();
+    ~RayTracingPipeline() override;
 
-    /// One launch of width x height rays with its push constants.
-    struct Launch {
-        std::vector<std::byte> push_constants;
-        uint32_t width = 0, height = 0;
-    };
-
-    /// Runs the launches one after another and waits; the device time around them in milliseconds.
-    double run(std::span<const Launch> launches) const;
+    double run(std::span<const Launch> launches) const override;
+    std::vector<ShaderStatistic> statistics() const override;
 
     struct Implementation;
 

@@ -97,8 +97,8 @@ Json to_json(const BenchSettings& settings) {
     return {{"repeat", settings.repeat},         {"warm_up_ms", json_number(settings.warm_up_ms)},
             {"error_rays", settings.error_rays}, {"leaf_order", settings.leaf_order},
             {"compaction", settings.compaction}, {"normals", settings.normals},
-            {"low_memory", settings.low_memory}, {"no_skips", settings.no_skips},
-            {"caps", name_of(settings.caps)}};
+            {"low_memory", settings.low_memory}, {"traversal", settings.traversal},
+            {"no_skips", settings.no_skips},     {"caps", name_of(settings.caps)}};
 }
 
 Json to_json(const ModelFacts& model) {
@@ -170,6 +170,8 @@ Json time_of(const ResultRow& row) {
             {"group", text_or_null(row.group)},
             {"geometry_ms", optional_number(row.geometry_ms)},
             {"order_ms", of_cost([](const SceneCost& c) { return c.order_ms; })},
+            {"order_cached", row.cost ? Json(row.cost->order_cached) : Json()},
+            {"traversal", row.cost ? Json(name_of(row.cost->traversal)) : Json()},
             {"upload_ms", of_cost([](const SceneCost& c) { return c.builds.upload_ms; })},
             {"build_ms", of_cost([](const SceneCost& c) { return c.builds.build_ms; })},
             {"compaction_ms", of_cost([](const SceneCost& c) { return c.builds.compaction_ms; })},
@@ -192,6 +194,32 @@ Json memory_of(const ResultRow& row) {
             {"buffer_bytes", row.buffer_bytes() ? Json(*row.buffer_bytes()) : Json()},
             {"resident_bytes", row.resident_bytes() ? Json(*row.resident_bytes()) : Json()},
             {"bytes_per_curve", optional_number(row.bytes_per_curve())}};
+}
+
+Json to_json(const std::optional<WorkCounts>& work) {
+    if (!work) return {};
+    return {{"rays", work->rays},
+            {"leaves_per_ray", json_number(work->leaves_per_ray())},
+            {"false_entry_share", json_number(work->false_entry_share())},
+            {"searched_share", json_number(work->searched_share())},
+            {"iterations_per_ray", json_number(work->iterations_per_ray())},
+            {"reports_per_ray", json_number(work->reports_per_ray())},
+            {"most_leaves", work->most_leaves},
+            {"most_iterations", work->most_iterations}};
+}
+
+/// Meanings: measure/trace_profile.h, trace/work_counts.h.
+Json to_json(const TraceProfile& profile) {
+    Json shaders = Json::array();
+    for (const ShaderStatistic& one : profile.shaders)
+        shaders.push_back({{"shader", one.shader}, {"name", one.name}, {"value", one.value}});
+    return {{"hits", profile.hits},
+            {"trace_ms", json_number(profile.trace_ms)},
+            {"floor_ms", optional_number(profile.floor_ms)},
+            {"floor_at_hit_ms", optional_number(profile.floor_at_hit_ms)},
+            {"work", to_json(profile.work)},
+            {"work_at_hit", to_json(profile.work_at_hit)},
+            {"shaders", shaders}};
 }
 
 Json to_json(const Context& context) {
@@ -233,6 +261,7 @@ Json to_json(const ResultRow& row) {
             {"memory", memory_of(row)},
             {"intersector_error", row.intersector_error ? to_json(*row.intersector_error) : Json()},
             {"model_error", row.model_error ? to_json(*row.model_error) : Json()},
+            {"profile", row.profile ? to_json(*row.profile) : Json()},
             {"images", to_json(row.images)},
             {"seed", row.seed},
             {"context", to_json(row.context)}};

@@ -35,6 +35,7 @@ std::string BenchSettings::key() const {
     if (!compaction) text += " compaction=0";
     if (!normals) text += " normals=0";
     if (low_memory) text += " low_memory=1";
+    if (traversal != "pipeline") text += " traversal=" + traversal;
     for (const std::string& skip : no_skips) text += " no_skip=" + skip;
     return text;
 }

@@ -3,6 +3,7 @@
 
 #include "gpu/device.h"
 #include "measure/comparison.h"
+#include "measure/trace_profile.h"
 #include "primitives/primitive.h"
 #include "report/context.h"
 #include "report/sweep.h"
@@ -74,7 +75,8 @@ struct BenchSettings {
     size_t error_rays = 0;
     std::string leaf_order = "auto";
     bool compaction = true, normals = true, low_memory = false;
-    std::vector<std::string> no_skips;  // forced off
+    std::string traversal = "pipeline";  // as asked for; the row's cost has the one that was used
+    std::vector<std::string> no_skips;   // forced off
     Caps caps = Caps::round;
 
     /// " order=median compaction=0 normals=0": what changes the case and is not the default.
@@ -114,6 +116,7 @@ struct ResultRow {
     std::optional<SceneCost> cost;
     std::optional<Comparison> intersector_error;  // against the primitive's own surface
     std::optional<Comparison> model_error;        // against the common reference
+    std::optional<TraceProfile> profile;          // where one is wanted
     CaseFiles images;                             // of primary rays, where pictures are wanted
     uint64_t seed = 0;
     Context context;

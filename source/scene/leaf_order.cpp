@@ -1,10 +1,15 @@
 #include "scene/leaf_order.h"
 
+#include "base/cache.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 
+#include <fmt/core.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cstring>
+#include <optional>
 
 namespace strandlab {
 namespace {
@@ -25,6 +30,22 @@ float area_of(std::span<const Item> items) {
     Box box;
     for (const Item& item : items) box.add(item.box);
     return half_area(box);
+}
+
+/// Fewer are ordered faster than a file is found.
+constexpr size_t fewest_kept = 50'000;
+
+/// The entry as an order of `count` boxes; nothing when it is none.
+std::optional<std::vector<uint32_t>> order_in(std::span<const std::byte> entry, size_t count) {
+    if (entry.size() != count * sizeof(uint32_t)) return std::nullopt;
+    std::vector<uint32_t> order(count);
+    std::memcpy(order.data(), entry.data(), entry.size());
+    std::vector<bool> seen(count, false);
+    for (const uint32_t index : order) {
+        if (index >= count || seen[index]) return std::nullopt;
+        seen[index] = true;
+    }
+    return order;
 }
 
 void split_at_median(std::span<Item> items, size_t left, int axis) {
@@ -75,6 +96,17 @@ std::vector<uint32_t> median_order(std::span<const Box> boxes) {
     std::vector<uint32_t> order(items.size());
     parallel_for(items.size(), [&](size_t i) { order[i] = items[i].index; });
     return order;
+}
+
+KnownOrder known_median_order(std::span<const Box> boxes) {
+    if (boxes.size() < fewest_kept) return {median_order(boxes), false};
+    const std::string key =
+        fmt::format("leaf-order/1 boxes={} hash={:016x}", boxes.size(), Hash().add(boxes).value());
+    if (const auto entry = cache_read(key))
+        if (auto order = order_in(*entry, boxes.size())) return {std::move(*order), true};
+    KnownOrder computed{median_order(boxes), false};
+    cache_write(key, std::as_bytes(std::span(computed.order)));
+    return computed;
 }
 
 }  // namespace strandlab

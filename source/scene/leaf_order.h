@@ -15,4 +15,11 @@ namespace strandlab {
 /// order[i] is the old index of the new leaf i. The same for any number of threads.
 std::vector<uint32_t> median_order(std::span<const Box> boxes);
 
+/// The same order from the program's cache, where an earlier run has computed it; few boxes are not kept.
+struct KnownOrder {
+    std::vector<uint32_t> order;
+    bool was_cached = false;
+};
+KnownOrder known_median_order(std::span<const Box> boxes);
+
 }  // namespace strandlab

@@ -56,15 +56,33 @@ Hit CpuTracer::trace(const Ray& ray, TraceMode mode, glm::vec3* normal) const {
                : result(first<double>(cpu.precise, cpu.finish_precise, ray, mode));
 }
 
-uint32_t CpuTracer::iterations(const Ray& ray) const {
-    uint32_t count = 0;
-    if (primitive_.cpu.counted == nullptr || !is_valid(ray)) return count;
+RayWork CpuTracer::work(const Ray& ray, TraceMode mode) const {
+    RayWork work;
+    if (primitive_.cpu.single == nullptr || !is_valid(ray)) return work;
     const auto counted = [&](const Geometry& geometry, size_t leaf, const Ray& r, float tmax,
                              LeafHit<float>& hit) {
-        return primitive_.cpu.counted(geometry, leaf, r, tmax, hit, count);
+        uint32_t iterations = 0;
+        const bool found = primitive_.cpu.counted != nullptr
+                               ? primitive_.cpu.counted(geometry, leaf, r, tmax, hit, iterations)
+                               : primitive_.cpu.single(geometry, leaf, r, tmax, hit);
+        ++work.leaves;
+        work.searched += iterations > 0 ? 1 : 0;
+        work.iterations += iterations;
+        work.reports += found ? 1 : 0;
+        return found;
     };
-    first<float>(counted, primitive_.cpu.finish_single, ray, TraceMode::closest);
-    return count;
+    first<float>(counted, primitive_.cpu.finish_single, ray, mode);
+    return work;
+}
+
+uint32_t CpuTracer::walk(const Ray& ray) const {
+    uint32_t leaves = 0;
+    if (!is_valid(ray)) return leaves;
+    bvh_.traverse(BvhRay(ray.origin, ray.direction, ray.tmin, ray.tmax), [&](uint32_t, double&) {
+        ++leaves;
+        return false;
+    });
+    return leaves;
 }
 
 ReferenceHit CpuTracer::trace_unrounded(const Ray& ray) const {
@@ -93,12 +111,12 @@ std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Prim
     return hits;
 }
 
-std::vector<uint32_t> cpu_iterations(const Geometry& geometry, const Primitive& primitive,
-                                     std::span<const Ray> rays) {
+std::vector<RayWork> cpu_work(const Geometry& geometry, const Primitive& primitive,
+                              std::span<const Ray> rays) {
     const CpuTracer tracer(geometry, primitive, Precision::single, extent_of(rays));
-    std::vector<uint32_t> counts(rays.size());
-    parallel_for(rays.size(), [&](size_t i) { counts[i] = tracer.iterations(rays[i]); });
-    return counts;
+    std::vector<RayWork> work(rays.size());
+    parallel_for(rays.size(), [&](size_t i) { work[i] = tracer.work(rays[i]); });
+    return work;
 }
 
 Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,

@@ -6,6 +6,7 @@
 #include "scene/hits.h"
 #include "scene/rays.h"
 #include "trace/bvh.h"
+#include "trace/work_counts.h"
 
 #include <span>
 #include <vector>
@@ -31,9 +32,11 @@ class CpuTracer {
     /// leaf. Invalid rays miss.
     Hit trace(const Ray& ray, TraceMode mode = TraceMode::closest, glm::vec3* normal = nullptr) const;
 
-    /// Iterations of the float kernel's search over all leaves that finding the closest hit comes upon; 0 for
-    /// closed forms.
-    uint32_t iterations(const Ray& ray) const;
+    /// What the float kernel's trace takes; no iterations for closed forms.
+    RayWork work(const Ray& ray, TraceMode mode = TraceMode::closest) const;
+
+    /// Leaves that the traversal comes upon when nothing is ever hit.
+    uint32_t walk(const Ray& ray) const;
 
     /// The same, not rounded to float: t, u, normal and curve of the closest hit.
     ReferenceHit trace_unrounded(const Ray& ray) const;
@@ -59,9 +62,9 @@ class CpuTracer {
 std::vector<ReferenceHit> cpu_trace_precise(const Geometry& geometry, const Primitive& primitive,
                                             std::span<const Ray> rays);
 
-/// Iterations of the float kernel per ray, in parallel; all 0 for closed forms.
-std::vector<uint32_t> cpu_iterations(const Geometry& geometry, const Primitive& primitive,
-                                     std::span<const Ray> rays);
+/// What the float kernel takes for each ray, in parallel.
+std::vector<RayWork> cpu_work(const Geometry& geometry, const Primitive& primitive,
+                              std::span<const Ray> rays);
 
 /// All rays, in parallel; normals only when wanted.
 Hits cpu_trace(const Geometry& geometry, const Primitive& primitive, std::span<const Ray> rays,

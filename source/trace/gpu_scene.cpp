@@ -4,10 +4,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "gpu/embedded_shaders.h"
 #include "scene/leaf_order.h"
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cassert>
@@ -92,15 +89,20 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
     for (SceneModel& model : models) {
         if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
-        if (!reorders || model.geometry.leaf_count() < 3) continue;
-        const Stopwatch stopwatch;
-        reorder_leaves(model.geometry, median_order(leaf_boxes(model.geometry)));
-        cost_.order_ms += stopwatch.milliseconds();
+        if (reorders && model.geometry.leaf_count() >= 3) order_leaves(model.geometry);
     }
     choose_skips(models, instances);
     for (uint32_t i = 0; i < models.size(); ++i) add_model(models[i], i, options);
     add_instances(instances, models);
-    if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options.pipelines);
+    if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options);
+}
+
+void GpuScene::order_leaves(Geometry& geometry) {
+    const Stopwatch stopwatch;
+    const KnownOrder known = known_median_order(leaf_boxes(geometry));
+    reorder_leaves(geometry, known.order);
+    cost_.order_ms += stopwatch.milliseconds();
+    cost_.order_cached |= known.was_cached;
 }
 
 void GpuScene::choose_skips(std::span<const SceneModel> models, std::span<const SceneInstance> instances) {
@@ -203,9 +205,9 @@ void GpuScene::add_tops(std::span<const InstanceInput> inputs, const std::vector
 }
 
 void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
-                             PipelineStore* store) {
+                             const SceneOptions& options) {
     const Stopwatch stopwatch;
-    const bool has_intersector = !primitive.shaders.intersection.empty();
+    has_intersector_ = !primitive.shaders.intersection.empty();
     PipelineConstants all = constants;
     all.emplace_back(has_leaf_table_id, has_leaf_table_ ? 1u : 0u);
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
@@ -213,23 +215,19 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(uniform_pieces_id, uniform_pieces_);
     all.emplace_back(has_one_row_id, row_.empty() ? 0u : 1u);
     all.emplace_back(is_in_place_id, is_in_place_ ? 1u : 0u);
-    all.emplace_back(early_out_id, skips("early-out", has_intersector) ? 1u : 0u);
-    all.emplace_back(gentle_first_id, skips("gentle", has_intersector) ? 1u : 0u);
+    all.emplace_back(early_out_id, skips("early-out", has_intersector_) ? 1u : 0u);
+    all.emplace_back(gentle_first_id, skips("gentle", has_intersector_) ? 1u : 0u);
     all.emplace_back(hardware_fma_id, skips("splitting", hardware_fma_) ? 1u : 0u);
-    const auto make = [&] {
-        const PrimitiveShaders& shaders = primitive.shaders;
-        const bool filters_triangles = curves_of_a_ray_ != 0 && shaders.intersection.empty();
-        const std::string any_hit = filters_triangles ? "own_curve.rahit" : shaders.any_hit;
-        const PipelineStages stages{embedded_shader("trace.rgen"), embedded_shader("trace.rmiss"),
-                                    embedded_shader(shaders.closest_hit),
-                                    embedded_shader(shaders.intersection), embedded_shader(any_hit)};
-        assert(!stages.closest_hit.empty() && (shaders.intersection.empty() || !stages.intersection.empty()));
-        return std::make_shared<const RayTracingPipeline>(
-            device_, stages, all, static_cast<uint32_t>(sizeof(layout::TraceParameters)));
-    };
-    std::string name = primitive.name;
-    for (const auto& [id, bits] : all) name += fmt::format(" {}:{}", id, bits);
-    pipeline_ = store != nullptr ? store->get(name, make) : make();
+    pipelines_ = ScenePipelines(device_, primitive, std::move(all), curves_of_a_ray_ != 0, options.pipelines);
+    cost_.traversal = options.traversal;
+    if (options.traversal != Traversal::pipeline && !device_.can_query_rays()) {
+        if (options.traversal == Traversal::query)
+            fail(ExitCode::no_device, "--traversal query: {} has no ray queries; choose pipeline or auto",
+                 device_.info().name);
+        cost_.traversal = Traversal::pipeline;
+    }
+    if (cost_.traversal != Traversal::automatic)
+        pipeline_ = pipelines_.make({.by_query = cost_.traversal == Traversal::query});
     cost_.pipeline_ms = stopwatch.milliseconds();
 }
 
@@ -240,7 +238,7 @@ bool GpuScene::skips(const char* name, bool is_possible) {
     return skipped;
 }
 
-std::vector<RayTracingPipeline::Launch> GpuScene::launches(const GpuRays& rays, bool shadow) const {
+std::vector<TracePipeline::Launch> GpuScene::launches(const GpuRays& rays, bool shadow) const {
     layout::TraceParameters parameters{0,
                                        rays.rays_.address(),
                                        rays.hits_.address(),
@@ -250,17 +248,20 @@ std::vector<RayTracingPipeline::Launch> GpuScene::launches(const GpuRays& rays, 
                                        0,
                                        0,
                                        0,
-                                       {}};
+                                       {},
+                                       rays.counters_.is_empty() ? 0 : rays.counters_.address(),
+                                       0,
+                                       0};
     parameters.ray_flags = shadow ? shadow_flags : 0;
     parameters.is_shadow = shadow ? 1 : 0;
     if (!row_.empty()) parameters.row = row_.front();
-    std::vector<RayTracingPipeline::Launch> all;
+    std::vector<TracePipeline::Launch> all;
     for (const Top& top : tops_) add_launches(rays, parameters, top, all);
     return all;
 }
 
 void GpuScene::add_launches(const GpuRays& rays, layout::TraceParameters parameters, const Top& top,
-                            std::vector<RayTracingPipeline::Launch>& all) const {
+                            std::vector<TracePipeline::Launch>& all) const {
     const auto end = static_cast<uint32_t>(std::min<size_t>(rays.count_, top.end_ray));
     if (top.first_ray >= end) return;
     const uint32_t count = end - top.first_ray;
@@ -275,20 +276,23 @@ void GpuScene::add_launches(const GpuRays& rays, layout::TraceParameters paramet
         std::clamp<uint64_t>(device_.info().max_launch / width, 1, height));  // of one launch
     parameters.scene = top.structure.address();
     parameters.ray_count = end;
+    parameters.width = width;
+    parameters.is_tiled = shaped ? 1 : 0;
     for (uint32_t row = 0; row < height; row += rows) {
         parameters.first_ray = top.first_ray + row * width;
-        RayTracingPipeline::Launch& launch = all.emplace_back();
+        TracePipeline::Launch& launch = all.emplace_back();
         launch.push_constants.resize(sizeof parameters);
         std::memcpy(launch.push_constants.data(), &parameters, sizeof parameters);
         launch.width = width;
         launch.height = std::min(rows, height - row);
+        launch.is_tiled = shaped;
     }
 }
 
 double GpuScene::run(GpuRays& rays, bool shadow) const {
     assert(!normals_ || !rays.normals_.is_empty() || rays.count_ == 0);
     if (rays.count_ == 0) return 0;
-    if (pipeline_) return pipeline_->run(launches(rays, shadow));
+    if (!parts_.empty()) return pipeline_for(rays, shadow).run(launches(rays, shadow));
     // Without leaves there is nothing to trace: every ray misses.
     const std::vector<Hit> misses(rays.count_);
     rays.hits_.upload(std::as_bytes(std::span(misses)));
@@ -298,7 +302,7 @@ double GpuScene::run(GpuRays& rays, bool shadow) const {
 TraceResult GpuScene::trace(const Rays& rays, const TraceOptions& options) const {
     GpuRays buffers(device_, rays, normals_);
     TraceResult result;
-    for (double spent = 0; pipeline_ && !rays.rays.empty() && spent < options.warm_up_ms;)
+    for (double spent = 0; !parts_.empty() && !rays.rays.empty() && spent < options.warm_up_ms;)
         spent += std::max(1e-3, run(buffers, options.shadow));
     for (uint32_t i = 0; i < options.samples; ++i)
         result.milliseconds.push_back(run(buffers, options.shadow));

@@ -4,16 +4,18 @@
 #include "shaders/shared/trace_parameters.h"
 #include "gpu/acceleration_structure.h"
 #include "gpu/device.h"
-#include "gpu/ray_tracing_pipeline.h"
 #include "primitives/primitive.h"
 #include "scene/hits.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
+#include "trace/scene_pipelines.h"
+#include "trace/traversal.h"
+#include "trace/work_counts.h"
 
 #include <glm/glm.hpp>
 
-#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,23 +26,6 @@ namespace strandlab {
 struct SceneModel {
     Geometry geometry;
     uint32_t first_curve = 0;
-};
-
-/// Pipelines of one device, kept for later scenes with the same shaders and constants.
-class PipelineStore {
-  public:
-    using Pipeline = std::shared_ptr<const RayTracingPipeline>;
-
-    /// The pipeline of that name, made if there is none yet.
-    template <class Make>
-    Pipeline get(const std::string& name, Make&& make) {
-        Pipeline& pipeline = pipelines_[name];
-        if (!pipeline) pipeline = make();
-        return pipeline;
-    }
-
-  private:
-    std::map<std::string, Pipeline> pipelines_;
 };
 
 /// How a scene is put on the device.
@@ -61,6 +46,8 @@ struct SceneOptions {
     uint64_t max_leaves = 0;
     /// fma is known to round once on this device (gpu/arithmetic.h): the ray frame may use it.
     bool hardware_fma = false;
+    /// query needs a device that was opened with ray queries: Error (no_device) otherwise.
+    Traversal traversal = Traversal::pipeline;
     /// Names of skips (trace/skips.h) that are forced off.
     std::vector<std::string> no_skips;
     /// Where the pipeline is kept for the next scene; none: each scene has its own.
@@ -71,11 +58,14 @@ struct SceneOptions {
 struct SceneCost {
     BuildCost builds;
     double order_ms = 0;        // host: ordering the leaves
+    bool order_cached = false;  // the order was known from an earlier run: order_ms is the time to read it
     double pipeline_ms = 0;     // host: compiling the shaders, as far as the driver does it now
     uint64_t record_bytes = 0;  // leaves and records, kept while tracing
     uint64_t leaf_count = 0;
     uint32_t structure_count = 0;
-    std::vector<std::string> skipped;  // names of the skips taken (trace/skips.h)
+    std::vector<std::string> skipped;               // names of the skips taken (trace/skips.h)
+    Traversal traversal = Traversal::pipeline;      // automatic: until the first rays are traced
+    std::optional<TraversalTimes> traversal_times;  // what it was chosen by
 };
 
 /// Options of one trace.
@@ -103,9 +93,12 @@ class GpuRays {
   private:
     friend class GpuScene;
 
+    /// Room for what instrumented shaders count, all 0.
+    void clear_counters(const Device& device);
+
     size_t count_ = 0;
     uint32_t width_ = 0, height_ = 0;
-    Buffer rays_, hits_, normals_;
+    Buffer rays_, hits_, normals_, counters_;
 };
 
 class GpuScene {
@@ -121,6 +114,14 @@ class GpuScene {
     TraceResult trace(const Rays& rays, const TraceOptions& options = {}) const;
     /// Traces once; the device time in milliseconds. shadow as in TraceOptions.
     double run(GpuRays& rays, bool shadow) const;
+
+    /// Traces with instrumented shaders; the hits are the same. Empty for triangles: a driver's own test
+    /// tells nothing.
+    std::optional<std::vector<RayWork>> count_work(GpuRays& rays, bool shadow) const;
+    /// run with an intersector that always misses; nothing for triangles, whose test is the driver's.
+    std::optional<double> run_floor(GpuRays& rays, bool shadow) const;
+    /// What the driver tells of the shaders that run uses.
+    std::vector<ShaderStatistic> shader_statistics() const;
 
   private:
     struct Part {
@@ -142,13 +143,17 @@ class GpuScene {
     void add_tops(std::span<const InstanceInput> inputs, const std::vector<SceneModel>& models);
     void build_parts(std::span<const BottomLevelInput> inputs, size_t first_part);
     void make_pipeline(const Primitive& primitive, const std::vector<Constant>& constants,
-                       PipelineStore* store);
+                       const SceneOptions& options);
+    void order_leaves(Geometry& geometry);
+    /// The pipeline for run, which the first rays may have to choose.
+    const TracePipeline& pipeline_for(GpuRays& rays, bool shadow) const;
+    TraversalTimes measure_traversal(GpuRays& rays, bool shadow) const;
     void choose_skips(std::span<const SceneModel> models, std::span<const SceneInstance> instances);
     /// Whether the skip is taken: possible and not forced off. Notes it in the cost.
     bool skips(const char* name, bool is_possible);
-    std::vector<RayTracingPipeline::Launch> launches(const GpuRays& rays, bool shadow) const;
+    std::vector<TracePipeline::Launch> launches(const GpuRays& rays, bool shadow) const;
     void add_launches(const GpuRays& rays, layout::TraceParameters parameters, const Top& top,
-                      std::vector<RayTracingPipeline::Launch>& all) const;
+                      std::vector<TracePipeline::Launch>& all) const;
 
     Device device_;
     bool normals_ = false;
@@ -163,8 +168,11 @@ class GpuScene {
     std::vector<ModelBuffers> model_buffers_;
     Buffer rows_;
     std::vector<Top> tops_;
-    PipelineStore::Pipeline pipeline_;  // none for an empty scene
-    SceneCost cost_;
+    bool has_intersector_ = false;
+    ScenePipelines pipelines_;
+    // Chosen by the first rays where the traversal is automatic; none for an empty scene.
+    mutable PipelineStore::Pipeline pipeline_;
+    mutable SceneCost cost_;
 };
 
 }  // namespace strandlab

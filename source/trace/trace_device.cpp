@@ -6,6 +6,7 @@
 #include "gpu/arithmetic.h"
 #include "trace/cpu_trace.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -32,6 +33,13 @@ class GpuTraced : public TracedScene {
     double run(TracedRays& rays, bool shadow) const override {
         return scene_.run(static_cast<GpuTracedRays&>(rays).rays, shadow);
     }
+    std::optional<std::vector<RayWork>> count_work(TracedRays& rays, bool shadow) const override {
+        return scene_.count_work(static_cast<GpuTracedRays&>(rays).rays, shadow);
+    }
+    std::optional<double> run_floor(TracedRays& rays, bool shadow) const override {
+        return scene_.run_floor(static_cast<GpuTracedRays&>(rays).rays, shadow);
+    }
+    std::vector<ShaderStatistic> shader_statistics() const override { return scene_.shader_statistics(); }
 
   private:
     GpuScene scene_;
@@ -94,7 +102,54 @@ class CpuTraced : public TracedScene {
         return stopwatch.milliseconds();
     }
 
+    std::optional<std::vector<RayWork>> count_work(TracedRays& traced, bool shadow) const override {
+        const std::vector<Ray>& rays = static_cast<CpuTracedRays&>(traced).rays;
+        std::vector<RayWork> work(rays.size());
+        parallel_for(rays.size(), [&](size_t i) { work[i] = work_of(rays[i], shadow); });
+        return work;
+    }
+
+    std::optional<double> run_floor(TracedRays& traced, bool) const override {
+        const std::vector<Ray>& rays = static_cast<CpuTracedRays&>(traced).rays;
+        std::vector<uint32_t> leaves(rays.size());  // kept, so that the walk is not optimised away
+        const Stopwatch stopwatch;
+        parallel_for(rays.size(), [&](size_t i) {
+            if (!is_valid(rays[i])) return;
+            for (const SceneInstance& instance : instances_)
+                leaves[i] += tracers_[instance.model].walk(in_object_space(rays[i], instance));
+        });
+        return stopwatch.milliseconds();
+    }
+
+    std::vector<ShaderStatistic> shader_statistics() const override { return {}; }
+
   private:
+    static Ray in_object_space(const Ray& ray, const SceneInstance& instance) {
+        if (instance.world_from_object == glm::mat4x3(1.0f)) return ray;
+        const glm::mat3 inverse = glm::inverse(glm::mat3(instance.world_from_object));
+        return {inverse * (ray.origin - instance.world_from_object[3]), ray.tmin, inverse * ray.direction,
+                ray.tmax};
+    }
+
+    RayWork work_of(Ray ray, bool shadow) const {
+        RayWork all;
+        if (!is_valid(ray)) return all;
+        const auto mode = shadow ? TraceMode::any : TraceMode::closest;
+        for (const SceneInstance& instance : instances_) {
+            const CpuTracer& tracer = tracers_[instance.model];
+            const Ray object = in_object_space(ray, instance);
+            const RayWork one = tracer.work(object, mode);
+            all.leaves += one.leaves;
+            all.searched += one.searched;
+            all.iterations += one.iterations;
+            all.reports += one.reports;
+            if (one.reports == 0) continue;
+            if (shadow) break;
+            ray.tmax = std::min(ray.tmax, tracer.trace(object, mode).t);
+        }
+        return all;
+    }
+
     Hit trace_one(Ray ray, bool shadow, glm::vec3& normal) const {
         Hit best;
         if (!is_valid(ray)) return best;
@@ -103,15 +158,10 @@ class CpuTraced : public TracedScene {
             Hit hit;
             glm::vec3 object_normal(0);
             const auto mode = shadow ? TraceMode::any : TraceMode::closest;
-            if (instance.world_from_object == glm::mat4x3(1.0f)) {
-                hit = tracers_[instance.model].trace(ray, mode, &object_normal);
-            } else {
-                const glm::mat3 inverse = glm::inverse(glm::mat3(instance.world_from_object));
-                const Ray object{inverse * (ray.origin - instance.world_from_object[3]), ray.tmin,
-                                 inverse * ray.direction, ray.tmax};
-                hit = tracers_[instance.model].trace(object, mode, &object_normal);
-                if (hit.is_hit()) object_normal = glm::normalize(object_normal * inverse);
-            }
+            hit = tracers_[instance.model].trace(in_object_space(ray, instance), mode, &object_normal);
+            if (hit.is_hit() && instance.world_from_object != glm::mat4x3(1.0f))
+                object_normal =
+                    glm::normalize(object_normal * glm::inverse(glm::mat3(instance.world_from_object)));
             if (!hit.is_hit()) continue;
             if (shadow) return {ray.tmin, 0, 0, 0};
             hit.curve += models_[instance.model].first_curve;

@@ -26,6 +26,14 @@ class TracedScene {
     virtual TraceResult trace(const Rays& rays, const TraceOptions& options) const = 0;
     /// Traces rays of the same device's upload() once; the device time in milliseconds.
     virtual double run(TracedRays& rays, bool shadow) const = 0;
+
+    /// What each ray of run takes, from an instrumented trace; nothing where a driver's own test tells
+    /// nothing (triangles).
+    virtual std::optional<std::vector<RayWork>> count_work(TracedRays& rays, bool shadow) const = 0;
+    /// run with an intersector that always misses; nothing where the test is a driver's own.
+    virtual std::optional<double> run_floor(TracedRays& rays, bool shadow) const = 0;
+    /// What the driver tells of the shaders; for that the device is opened with pipeline_statistics.
+    virtual std::vector<ShaderStatistic> shader_statistics() const = 0;
 };
 
 /// A device by name: "cpu-float" and "cpu-double" are the C++ versions, everything else selects a Vulkan
