@@ -5,6 +5,7 @@
 #include "measure/comparison.h"
 #include "primitives/primitive.h"
 #include "report/context.h"
+#include "report/distant_pictures.h"
 #include "report/sweep.h"
 #include "scene/rays.h"
 #include "strands/curves.h"
@@ -115,6 +116,7 @@ struct ResultRow {
     std::optional<Comparison> intersector_error;  // against the primitive's own surface
     std::optional<Comparison> model_error;        // against the common reference
     CaseFiles images;                             // of primary rays, where pictures are wanted
+    std::vector<DistantError> distances;          // with them; nearest first
     uint64_t seed = 0;
     Context context;
 

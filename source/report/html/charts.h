@@ -50,7 +50,7 @@ std::optional<Drawing> outcome_chart(const ChartRows& data, const RowGroup& grou
 /// What pictures at 1 to 32 times the distance are judged by: fields of a row's "distances", and titles.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> distance_figures{
     {{"coverage_bias", "|coverage bias|"},
-     {"depth_bias", "|depth bias|"},
+     {"depth_bias", "|depth bias|, radii"},
      {"transmittance_bias", "|transmittance bias|"},
      {"flip", "FLIP"}}};
 
