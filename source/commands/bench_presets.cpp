@@ -42,7 +42,7 @@ const std::vector<Preset>& presets() {
     static const std::vector<Preset> all{
         {"quick",
          "one model in seconds",
-         {"curly"},
+         {"ringlets"},
          {},
          {"primary", "shadow"},
          2000,
@@ -100,6 +100,9 @@ std::vector<std::string> models_of(const Preset& preset) {
         const std::string name = std::filesystem::path(path).stem().string();
         return std::find(preset.models.begin(), preset.models.end(), name) == preset.models.end();
     });
+    if (all.empty())
+        fail(ExitCode::bad_input, "--preset {}: {} is not among the bundled models; name a MODEL",
+             preset.name, list_of(preset.models));
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include "commands/hit_files.h"
 #include "measure/pareto.h"
 #include "report/case_images.h"
+#include "report/distant_pictures.h"
 #include "report/images.h"
 #include "report/profile_table.h"
 #include "report/result_json.h"
@@ -94,6 +95,7 @@ struct BenchRun::Block {
     std::vector<Case> open;                            // cases to measure
     std::map<size_t, Json> rows = {};                  // by case number
     std::vector<ReferenceHit> picture_reference = {};  // of the rays that are a picture, once wanted
+    std::map<size_t, std::vector<DistantError>> distances = {};  // of primitives, where wanted
 
     bool is_open(size_t set, size_t primitive) const {
         return std::any_of(open.begin(), open.end(),
@@ -193,6 +195,8 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
             if (wanted[set]) write_rays(options_.save_rays, scene.name, block.rays.sets()[set].rays);
     block.open = open_cases(block);
 
+    measure_distances(block);
+
     std::vector<size_t> waiting;
     for (size_t primitive = 0; primitive < choices_.size(); ++primitive)
         if (std::any_of(block.open.begin(), block.open.end(),
@@ -274,8 +278,10 @@ void BenchRun::measure_set(Block& block, size_t set, const std::vector<const Pre
             row.intersector_error = std::move(errors.own);
             row.model_error = std::move(errors.model);
             if (!is_within_limits(row)) continue;
-            if (!options_.images.empty() && rays.is_picture)
+            if (!options_.images.empty() && rays.is_picture) {
                 row.images = write_pictures(block, *prepared, rays, hits);
+                row.distances = block.distances[primitive];
+            }
         }
         rows.push_back(std::move(row));
         traced.push_back(prepared);
@@ -347,6 +353,26 @@ bool BenchRun::is_within_limits(const ResultRow& row) {
 void BenchRun::add(Block& block, ResultRow row) {
     row.reproduce = reproducing_command(options_, row);
     block.rows[row.sweep.number] = writer_->add(row);
+}
+
+void BenchRun::measure_distances(Block& block) const {
+    if (options_.images.empty()) return;
+    std::optional<DistantPictures> pictures;
+    for (const Case& one : block.open) {
+        if (one.primitive == choices_.size() || !block.rays.sets()[one.set].is_picture) continue;
+        if (is_over_budget()) return;
+        if (!pictures) {
+            const Resolution& size = resolutions_[block.resolution];
+            pictures.emplace(block.input, camera_of(block.scene, options_.rays, size), size.width,
+                             size.height, options_.rays.seed, caps_);
+        }
+        try {
+            block.distances[one.primitive] = pictures->errors_of(choices_[one.primitive]);
+        } catch (const OutOfMemory&) {
+            warn("{}: {} does not fit the device, no pictures from farther away", block.scene.name,
+                 choices_[one.primitive].label());
+        }
+    }
 }
 
 CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,

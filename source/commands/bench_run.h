@@ -48,6 +48,8 @@ class BenchRun {
     std::vector<TimeSamples> time_all(const Block& block, size_t set,
                                       const std::vector<const PreparedCase*>& traced, TracedRays& rays) const;
     void measure_embree(Block& block);
+    /// How pictures err from farther away, of the open cases that have pictures.
+    void measure_distances(Block& block) const;
     bool is_within_limits(const ResultRow& row);
     void add(Block& block, ResultRow row);
 

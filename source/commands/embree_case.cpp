@@ -3,24 +3,10 @@
 #include "base/stopwatch.h"
 #include "measure/ray_error.h"
 #include "primitives/curved_pieces.h"
+#include "report/case_images.h"
 #include "trace/embree_reference.h"
 
 namespace strandlab {
-namespace {
-
-Hits hits_of(const std::vector<ReferenceHit>& reference) {
-    Hits hits;
-    hits.hits.resize(reference.size());
-    hits.normals.resize(reference.size());
-    for (size_t i = 0; i < reference.size(); ++i) {
-        if (!reference[i].is_hit()) continue;
-        hits.hits[i] = {float(reference[i].t), float(reference[i].u), reference[i].curve, 0};
-        hits.normals[i] = glm::vec3(reference[i].normal);
-    }
-    return hits;
-}
-
-}  // namespace
 
 ResultRow with_embree_facts(ResultRow row) {
     row.primitive = {"embree", std::string(embree_label), {}, Caps::open, Caps::open};

@@ -157,7 +157,7 @@ int run(const Options& options) {
     const TraceDevice device(options.device.options());
     const Scene full_scene = scene_with(options.model, 1);
     const Camera camera = camera_of(full_scene, ray_arguments, size);
-    const glm::dvec3 to_light = world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7)));
+    const glm::dvec3 to_light = light_direction(camera);
     const std::string name = hair_mesh_name(parse_hair_mesh_spec(options.model).file);
     Table table = empty_table();
     std::string rows;

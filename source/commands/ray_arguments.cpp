@@ -123,11 +123,10 @@ class RaySets::Maker {
             primary_hits_ = make_scene_hits(scene_, common_, primary_.rays);
         }
         MeasuredRays set;
-        // The light stands over the camera's right shoulder.
         set.rays = make_rays(info, {curves_,
                                     *camera_,
                                     size_,
-                                    world_direction(*camera_, glm::normalize(glm::dvec3(0.5, 0.8, 0.7))),
+                                    light_direction(*camera_),
                                     arguments_.seed,
                                     name.shuffled,
                                     {primary_.rays, primary_hits_}});

@@ -90,7 +90,7 @@ int run(const Options& options) {
     shading.width = size.width;
     shading.height = size.height;
     shading.samples = options.samples;
-    shading.to_light = world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7)));
+    shading.to_light = light_direction(camera);
     std::vector<float> visible;
     if (!options.no_shadows)
         visible = light_visible(*prepared.traced, rays, trace, curves, shading.to_light, occluder);

@@ -36,7 +36,9 @@ void prune(Json& row) {
             if (std::string_view(other) != group) erase(row[error], other);
         if (!row[error].contains(group) || !row[error][group].is_object()) continue;
         for (auto& [name, value] : row[error][group].items())
-            for (const char* key : {"first_ray", "worst_ray", "decades", "low", "high"}) erase(value, key);
+            for (const char* key :
+                 {"first_ray", "worst_ray", name == "distance" ? "" : "decades", "low", "high"})
+                erase(value, key);
     }
 }
 

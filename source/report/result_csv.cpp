@@ -21,7 +21,8 @@ std::string scalar_text(const Json& value) {
 std::string field_text(const Json& value) {
     std::string text;
     if (value.is_array())
-        for (const Json& item : value) text.append(text.empty() ? "" : ";").append(scalar_text(item));
+        for (size_t i = 0; i < value.size(); ++i)
+            text.append(i == 0 ? "" : ";").append(scalar_text(value[i]));
     else if (value.is_object())
         for (const auto& [key, item] : value.items())
             text.append(text.empty() ? "" : ",").append(key).append("=").append(scalar_text(item));
@@ -51,14 +52,29 @@ bool is_column(std::string_view path) {
     return ends_with_any(path, counts);
 }
 
+bool is_list_of_objects(const Json& value) {
+    return value.is_array() && !value.empty() &&
+           std::all_of(value.begin(), value.end(), [](const Json& item) { return item.is_object(); });
+}
+
+/// The values of each key of objects that have the same keys.
+Json transposed(const Json& list) {
+    Json object;
+    for (const Json& item : list)
+        for (const auto& [key, value] : item.items()) object[key].push_back(value);
+    return object;
+}
+
 /// Calls visit(path, value) for everything that is no object; parameters, whose keys differ from row to
-/// row, count as one value.
+/// row, count as one value, and a list of objects as one list for each of their keys.
 void for_each_value(const Json& object, const std::string& prefix,
                     const std::function<void(const std::string&, const Json&)>& visit) {
     for (const auto& [key, value] : object.items()) {
         const std::string path = prefix.empty() ? key : prefix + "." + key;
         if (value.is_object() && key != "parameters")
             for_each_value(value, path, visit);
+        else if (is_list_of_objects(value))
+            for_each_value(transposed(value), path, visit);
         else
             visit(path, value);
     }
@@ -70,6 +86,7 @@ Json full_row() {
     row.trace_ms = row.wall_ms = {1};
     row.ratio = {"", {1}};
     row.images = {"x", "x", "x"};
+    row.distances.emplace_back();
     row.geometry_ms = 0;
     row.cost.emplace();
     row.profile.emplace();

@@ -21,8 +21,8 @@ std::string csv_line(std::span<const std::string> fields);
 /// rays outside the decisive group only counts are in it, and no single ray; JSON has them.
 const std::vector<std::string>& csv_columns();
 
-/// The fields of a row made by to_json, one for each column: empty for null; samples separated by ';',
-/// parameters as "key=value,key=value".
+/// The fields of a row made by to_json, one for each column: empty for null; samples, and figures
+/// at growing distances, separated by ';', parameters as "key=value,key=value".
 std::vector<std::string> csv_fields(const nlohmann::ordered_json& row);
 
 }  // namespace strandlab

@@ -93,6 +93,25 @@ Json to_json(const CaseFiles& images) {
             {"error_map", text_or_null(images.error_map)}};
 }
 
+Json to_json(const DistantError& error) {
+    return {{"scale", error.scale},
+            {"rays", error.rays},
+            {"coverage", error.detail.coverage},
+            {"coverage_bias", error.detail.coverage_bias},
+            {"coverage_rms", error.detail.coverage_rms},
+            {"depth_bias", optional_number(error.depth_bias)},
+            {"transmittance", error.detail.transmittance},
+            {"transmittance_bias", error.detail.transmittance_bias},
+            {"flip", error.flip}};
+}
+
+Json to_json(const std::vector<DistantError>& errors) {
+    if (errors.empty()) return {};
+    Json list = Json::array();
+    for (const DistantError& error : errors) list.push_back(to_json(error));
+    return list;
+}
+
 Json to_json(const BenchSettings& settings) {
     return {{"repeat", settings.repeat},         {"warm_up_ms", json_number(settings.warm_up_ms)},
             {"error_rays", settings.error_rays}, {"leaf_order", settings.leaf_order},
@@ -263,6 +282,7 @@ Json to_json(const ResultRow& row) {
             {"model_error", row.model_error ? to_json(*row.model_error) : Json()},
             {"profile", row.profile ? to_json(*row.profile) : Json()},
             {"images", to_json(row.images)},
+            {"distances", to_json(row.distances)},
             {"seed", row.seed},
             {"context", to_json(row.context)}};
 }

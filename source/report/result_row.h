@@ -6,6 +6,7 @@
 #include "measure/trace_profile.h"
 #include "primitives/primitive.h"
 #include "report/context.h"
+#include "report/distant_pictures.h"
 #include "report/sweep.h"
 #include "scene/rays.h"
 #include "strands/curves.h"
@@ -118,6 +119,7 @@ struct ResultRow {
     std::optional<Comparison> model_error;        // against the common reference
     std::optional<TraceProfile> profile;          // where one is wanted
     CaseFiles images;                             // of primary rays, where pictures are wanted
+    std::vector<DistantError> distances;          // with them; nearest first
     uint64_t seed = 0;
     Context context;
 

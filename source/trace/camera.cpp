@@ -125,6 +125,10 @@ glm::dvec3 world_direction(const Camera& camera, const glm::dvec3& in_camera) {
     return glm::normalize(frame.right * in_camera.x + frame.up * in_camera.y - frame.forward * in_camera.z);
 }
 
+glm::dvec3 light_direction(const Camera& camera) {
+    return world_direction(camera, glm::normalize(glm::dvec3(0.5, 0.8, 0.7)));
+}
+
 Camera framing(std::span<const glm::vec4> balls, double aspect, const CameraChoice& choice) {
     return framing_of(
         balls.size(), [&](size_t i) { return glm::dvec4(balls[i]); }, aspect, choice);

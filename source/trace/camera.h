@@ -35,6 +35,9 @@ CameraFrame frame_of(const Camera& camera);
 /// lights are set relative to the picture.
 glm::dvec3 world_direction(const Camera& camera, const glm::dvec3& in_camera);
 
+/// The direction to the light of pictures and shadow rays, which stands over the camera's right shoulder.
+glm::dvec3 light_direction(const Camera& camera);
+
 /// What a user asks of the camera: either an eye and a target, or a direction to look from whose
 /// distance follows from the hair.
 struct CameraChoice {

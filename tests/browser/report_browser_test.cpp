@@ -74,6 +74,12 @@ class ReportBrowserTest : public testing::Test {
                 json["reproduce"] = std::string("strandlab bench ") + scene + " --primitive " + primitive;
                 json["folder"] = folder_ / ".";
                 json["images"] = {{"rendered", "a.png"}, {"error_map", "b.png"}};
+                for (int scale = 1; scale <= 32; scale *= 2)
+                    json["distances"].push_back({{"scale", scale},
+                                                 {"coverage_bias", -0.1 * p99 / scale},
+                                                 {"depth_bias", p99},
+                                                 {"flip", p99 / scale}});
+                for (const int bin : {3, 6, 7}) json["model_error"]["all"]["distance"]["decades"][bin] = 100;
                 results.rows.push_back(std::move(json));
             }
         results.stress.push_back(Json{{"family", "grazing"},
@@ -122,10 +128,10 @@ TEST_F(ReportBrowserTest, OpensWithoutAWordOnTheConsole) {
     EXPECT_EQ(count("#tradeoffs .panel"), 2);
     EXPECT_EQ(count("#tradeoffs svg.chart"), 8);
     EXPECT_EQ(count("#memory svg.chart"), 2);
-    EXPECT_EQ(count("#errors svg.chart"), 6);
+    EXPECT_EQ(count("#errors svg.chart"), 8);
     EXPECT_EQ(count("#stress svg.chart"), 1);
     EXPECT_EQ(count("#table tbody tr"), 8);
-    EXPECT_EQ(count("nav a"), 8);
+    EXPECT_EQ(count("nav a"), 9);
     EXPECT_EQ(browser().messages(), std::vector<std::string>());
     EXPECT_EQ(browser().requests().size(), 1u);  // the page itself
 }
@@ -158,7 +164,8 @@ TEST_F(ReportBrowserTest, ArrowKeysWalkOverAChart) {
     const Json first = browser().evaluate("document.querySelector('#tip b').textContent");
     browser().press_key("ArrowRight");
     EXPECT_NE(browser().evaluate("document.querySelector('#tip b').textContent"), first);
-    browser().evaluate("dispatchEvent(new Event('scroll'))");  // as comes late after focus() on a slow machine
+    browser().evaluate(
+        "dispatchEvent(new Event('scroll'))");  // as comes late after focus() on a slow machine
     EXPECT_EQ(browser().evaluate("document.getElementById('tip').hidden"), false);
     browser().press_key("Enter");
     EXPECT_EQ(browser().evaluate("document.getElementById('details').open"), true);
@@ -336,7 +343,7 @@ TEST_F(ReportBrowserTest, FiguresAreWellFormed) {
             << entry.path();
         ++seen;
     }
-    EXPECT_EQ(seen, 17u);
+    EXPECT_EQ(seen, 25u);
 }
 
 }  // namespace

@@ -221,11 +221,15 @@ TEST_F(SweepTest, WritesThePicturesThatItsRowsName) {
     size_t named = 0;
     for (const Json& row : rows("r.jsonl")) {
         EXPECT_EQ(row.at("images").is_null(), row.at("rays").at("name") != "primary");
+        EXPECT_EQ(row.at("distances").is_null(), row.at("images").is_null());
         if (row.at("images").is_null()) continue;
         for (const char* kind : {"rendered", "reference", "error_map"}) {
             EXPECT_TRUE(exists(row.at("images").at(kind))) << row.at("images");
             ++named;
         }
+        ASSERT_EQ(row.at("distances").size(), 6u);
+        EXPECT_EQ(row.at("distances").at(5).at("scale"), 32);
+        for (const Json& error : row.at("distances")) EXPECT_LT(error.at("flip"), 0.5) << error;
     }
     EXPECT_EQ(named, 3 * cases / 2);
 }
@@ -350,6 +354,16 @@ TEST_F(SweepTest, PartsRunAsASlurmJobArray) {
     EXPECT_EQ(all.size(), cases);
     const int status = std::system("bash '" STRANDLAB_MODELS "/../tools/sweep_array' x 2> /dev/null");
     EXPECT_NE(status, 0);
+}
+
+TEST_F(SweepTest, EveryPresetHasItsModels) {
+    for (const char* preset : {"quick", "default", "full"}) {
+        const Outcome outcome = run({"bench", "--preset", preset, "--device", "cpu-float", "--resolution",
+                                     "8x8", "--error-rays", "0", "--repeat", "1", "--rays", "primary",
+                                     "--no-embree", "--primitive", "lss:segments=1", "--json", preset});
+        expect_success(outcome);
+        EXPECT_EQ(rows(preset).size(), std::string(preset) == "quick" ? 1u : 7u) << outcome.output;
+    }
 }
 
 TEST_F(SweepTest, RebuildsThePublishedTableAtTheSizeThatTheDeviceTakes) {

@@ -1,5 +1,6 @@
 #include "report/html/axis.h"
 #include "report/html/charts.h"
+#include "report/html/error_bins.h"
 #include "report/html/markup.h"
 #include "unit/support/result_rows.h"
 
@@ -200,8 +201,39 @@ TEST_F(ChartsTest, RowsWithoutFiguresHaveNoChart) {
     EXPECT_FALSE(memory_chart(data(), groups_[0]));
     EXPECT_FALSE(outcome_chart(data(), groups_[0]));
     EXPECT_FALSE(exceedance_chart(data(), groups_[0], Against::own_surface));
+    EXPECT_FALSE(histogram_chart(data(), groups_[0], Against::curves));
     EXPECT_FALSE(distance_chart(data(), groups_[0], "flip", "FLIP"));
     EXPECT_FALSE(stress_chart({}));
+}
+
+TEST_F(ChartsTest, MeasuredBinsAreDrawn) {
+    ResultRow row = result_row("lss", 1, 90, 0.3);
+    auto& decades = row.model_error->all.measures[0].decades;
+    decades[6] = 400, decades[8] = 99, decades[9] = 1;  // from 1e-4, 1e-2 and 0.1
+    use({to_json(row)});
+    const auto bins = error_bins(rows_[0], Against::curves);
+    ASSERT_TRUE(bins.has_value());
+    EXPECT_DOUBLE_EQ((*bins)[6], 0.8);
+    EXPECT_DOUBLE_EQ(lower_edge(6), 1e-4);
+    EXPECT_FALSE(error_bins(rows_[0], Against::own_surface));
+    EXPECT_FALSE(histogram_chart(data(), groups_[0], Against::own_surface));
+    const std::string bars = histogram_chart(data(), groups_[0], Against::curves)->inside_page();
+    const size_t bar = bars.find("<path class=\"bar s1\" d=\"");
+    ASSERT_NE(bar, std::string::npos);
+    EXPECT_EQ(count(bars.substr(bar, bars.find("/>", bar) - bar), "z"), 3u);  // 1e-3 is empty
+    for (const char* edge : {"10⁻⁴", ">0.001<", ">0.01<", ">0.1<", ">1<"})
+        EXPECT_EQ(count(bars, edge), 1u) << edge;
+    // The shares beyond four edges, three percentiles and the largest.
+    const std::string curve = exceedance_chart(data(), groups_[0], Against::curves)->inside_page();
+    const size_t line = curve.find("<path class=\"line s1\" d=\"M");
+    ASSERT_NE(line, std::string::npos);
+    EXPECT_EQ(count(curve.substr(line, curve.find("/>", line) - line), "L"), 7u);
+    // Bins of other programs are no bins.
+    for (const Json& other :
+         {Json({1, 2}), Json("x"), Json(std::vector<int>(14, -1)), Json(std::vector<int>(14, 0))}) {
+        rows_[0]["model_error"]["all"]["distance"]["decades"] = other;
+        EXPECT_FALSE(error_bins(rows_[0], Against::curves)) << other;
+    }
 }
 
 TEST_F(ChartsTest, DistancesAndStressAreDrawnWhereRowsHaveThem) {

@@ -185,6 +185,21 @@ std::string csv_value(const ResultRow& row, std::string_view column) {
     return fields[static_cast<size_t>(found - csv_columns().begin())];
 }
 
+TEST(ResultCsv, FiguresAtDistancesAreLists) {
+    ResultRow row;
+    row.distances.resize(3);
+    for (size_t i = 0; i < 3; ++i) {
+        row.distances[i].scale = double(1 << i);
+        row.distances[i].flip = 0.25 * double(i);
+    }
+    row.distances[1].depth_bias = -0.5;
+    EXPECT_EQ(csv_value(row, "distances.scale"), "1.0;2.0;4.0");
+    EXPECT_EQ(csv_value(row, "distances.flip"), "0.0;0.25;0.5");
+    EXPECT_EQ(csv_value(row, "distances.depth_bias"), ";-0.5;");
+    EXPECT_EQ(csv_value(ResultRow{}, "distances.flip"), "");
+    EXPECT_EQ(csv_value(ResultRow{}, "seed"), csv_value(row, "seed"));
+}
+
 TEST(ResultCsv, EveryColumnIsFilledFromTheRow) {
     const ResultRow row = measured_row();
     EXPECT_EQ(csv_value(row, "model.name"), "tuft, \"small\"");

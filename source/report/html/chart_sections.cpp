@@ -69,7 +69,9 @@ std::string error_section(const PageData& data) {
         const std::string charts =
             charts_in("single", inside_page(outcome_chart(rows, group))) +
             charts_in("pair", inside_page(exceedance_chart(rows, group, Against::curves)) +
-                                  inside_page(exceedance_chart(rows, group, Against::own_surface)));
+                                  inside_page(exceedance_chart(rows, group, Against::own_surface))) +
+            charts_in("pair", inside_page(histogram_chart(rows, group, Against::curves)) +
+                                  inside_page(histogram_chart(rows, group, Against::own_surface)));
         if (!charts.empty()) html += panel(group, true, charts);
     }
     return html;

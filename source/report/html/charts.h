@@ -40,9 +40,12 @@ std::optional<Drawing> memory_chart(const ChartRows& data, const RowGroup& group
 /// Which error: of everything against the curves, or of the intersector against its own surface.
 enum class Against { curves, own_surface };
 
-/// How many rays are off by more than a distance (in radii), both logarithmic: the 50th to 99.9th
-/// percentiles and the largest error of each row.
+/// How many rays are off by more than a distance (in radii), both logarithmic: the bins and percentiles that
+/// each row has measured, and its largest error.
 std::optional<Drawing> exceedance_chart(const ChartRows& data, const RowGroup& group, Against against);
+
+/// How many of each row's matches are off by 1e-9 to 1e3 radii: a bar for each decade that any row fills.
+std::optional<Drawing> histogram_chart(const ChartRows& data, const RowGroup& group, Against against);
 
 /// Shares of rays with each wrong outcome, as stacked bars.
 std::optional<Drawing> outcome_chart(const ChartRows& data, const RowGroup& group);
@@ -50,7 +53,7 @@ std::optional<Drawing> outcome_chart(const ChartRows& data, const RowGroup& grou
 /// What pictures at 1 to 32 times the distance are judged by: fields of a row's "distances", and titles.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> distance_figures{
     {{"coverage_bias", "|coverage bias|"},
-     {"depth_bias", "|depth bias|"},
+     {"depth_bias", "|depth bias|, radii"},
      {"transmittance_bias", "|transmittance bias|"},
      {"flip", "FLIP"}}};
 

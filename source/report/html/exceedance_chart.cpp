@@ -1,5 +1,6 @@
 // How large errors are, and how often.
 #include "report/html/charts.h"
+#include "report/html/error_bins.h"
 #include "report/html/plot.h"
 #include "report/row_fields.h"
 
@@ -19,7 +20,7 @@ constexpr double width = 390, height = 300, left = 54, right = 374, bottom = 254
 /// More lines than this cannot be told apart: then only those of rows on a front are drawn.
 constexpr size_t most_lines = 12;
 
-/// A percentile: so large a share of rays is off by more than its value.
+/// So large a share of rays is off by more than a distance.
 struct Step {
     double error, share;
 };
@@ -29,10 +30,22 @@ struct Tail {
     std::vector<Step> steps;
 };
 
+/// The shares beyond the edges of the bins: from the last edge that all rays lie beyond to the first that
+/// none does.
+void add_edges(std::vector<Step>& steps, const ErrorBins& bins) {
+    double within = 0;
+    for (size_t bin = 0; bin + 1 < bins.size(); ++bin) {
+        within += bins[bin];
+        if (within == 0 && bins[bin + 1] == 0) continue;
+        if (within > 1 - 1e-12) return;
+        steps.push_back({lower_edge(bin + 1), 1 - within});
+    }
+}
+
 std::vector<Step> steps_of(const Json& row, Against against) {
-    const std::string path =
-        against == Against::curves ? "model_error.all.distance." : "intersector_error.decisive.distance.";
+    const std::string path = distance_path(against);
     std::vector<Step> steps;
+    if (const auto bins = error_bins(row, against)) add_edges(steps, *bins);
     constexpr std::array<std::pair<const char*, double>, 4> percentiles{
         {{"p50", 0.5}, {"p95", 0.05}, {"p99", 0.01}, {"p999", 0.001}}};
     const double count = number_or_nan(row, path + "count");
@@ -42,6 +55,8 @@ std::vector<Step> steps_of(const Json& row, Against against) {
     }
     const double largest = number_or_nan(row, path + "max");
     if (largest > 0 && std::isfinite(largest) && count >= 1) steps.push_back({largest, 1 / count});
+    std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.error < b.error; });
+    for (size_t i = 1; i < steps.size(); ++i) steps[i].share = std::min(steps[i].share, steps[i - 1].share);
     return steps;
 }
 

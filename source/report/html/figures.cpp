@@ -55,6 +55,8 @@ size_t write_figures(const MergedResults& results, const std::string& folder) {
         figures.write(stem, "outcomes", outcome_chart(rows, group));
         figures.write(stem, "model-error", exceedance_chart(rows, group, Against::curves));
         figures.write(stem, "intersector-error", exceedance_chart(rows, group, Against::own_surface));
+        figures.write(stem, "model-histogram", histogram_chart(rows, group, Against::curves));
+        figures.write(stem, "intersector-histogram", histogram_chart(rows, group, Against::own_surface));
         for (const auto& [figure, title] : distance_figures)
             figures.write(stem, file_name_of(figure).c_str(),
                           distance_chart(rows, group, std::string(figure), std::string(title)));

@@ -70,6 +70,15 @@ double spread_of(const Json& row) {
     return 50 * (time("p95") - time("p5")) / time("median");
 }
 
+/// A figure of the picture at the camera's own distance.
+double nearest_picture(const Json& row, const char* figure) {
+    const Json* list = field_at(row, "distances");
+    if (!list || !list->is_array()) return std::nan("");
+    for (const Json& picture : *list)
+        if (number_at(picture, "scale") == 1.0) return number_or_nan(picture, figure);
+    return std::nan("");
+}
+
 double own_wrong_rays(const Json& row) {
     double wrong = 0;
     for (const char* outcome : {"nan", "false_hit", "false_miss", "wrong_strand", "wrong_place"})
@@ -121,6 +130,16 @@ std::vector<Column> columns() {
          {},
          own_wrong_rays},
         number_column("own dt p99", "radii", "intersector_error.decisive.distance.p99"),
+        {"FLIP",
+         "",
+         "of converged pictures against the curves, at the picture's own distance",
+         {},
+         [](const Json& row) { return nearest_picture(row, "flip"); }},
+        {"coverage",
+         "%",
+         "bias: how much more or less the hair covers than the curves do, in that picture",
+         {},
+         [](const Json& row) { return 100 * nearest_picture(row, "coverage_bias"); }},
         number_column("undecided", "%", "intersector_error.undecided_share", 100,
                       "rays whose answer hangs on a thousandth of a radius"),
     };
