@@ -26,6 +26,7 @@ layout(constant_id = 5) const bool is_in_place = false;   // no instance is move
 layout(constant_id = 6) const bool early_out = true;      // leave what a ray passes before anything else
 layout(constant_id = 7) const bool gentle_first = true;   // the short way for rays that cross a piece gently
 layout(constant_id = 8) const bool counts_work = false;   // for profiles only: never where time is measured
+layout(constant_id = 9) const uint strand_curves = 0u;    // not 0: each strand's, which share the points they meet in
 
 struct Ray {
     vec3 origin;
@@ -70,6 +71,11 @@ Leaf fetch_leaf(GeometryRow row, uint primitive) {
     uint index = row.first_leaf + primitive;
     uint pieces = uniform_pieces != 0u ? uniform_pieces : row.pieces;
     return Leaf(index / pieces, (index % pieces) | (pieces << 12));
+}
+
+// Where the control points of a curve begin.
+uint first_point(uint curve) {
+    return strand_curves == 0u ? 4u * curve : 3u * curve + curve / strand_curves;
 }
 
 // The parameters between which the leaf's piece lies. Quotients by a power of two are exact products.

@@ -50,6 +50,7 @@ Geometry build_curved(const Curves& curves, const std::vector<uint32_t>& pieces,
                                       double(leaf.piece() + 1) / leaf.pieces());
     });
     geometry.curve_records.stride = sizeof(Curve);
+    geometry.curve_records.overlap = sizeof(Curve::value_type);
     geometry.curve_records.bytes.resize(curves.curves.size() * sizeof(Curve));
     if (!curves.curves.empty())
         std::memcpy(geometry.curve_records.bytes.data(), curves.curves.data(),

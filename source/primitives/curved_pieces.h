@@ -16,7 +16,8 @@ ParameterInfo splits_parameter(uint32_t default_splits);
 std::vector<uint32_t> curved_pieces(const Curves& curves, uint32_t splits, double max_turn);
 
 /// Leaves, tight boxes of the swept balls on each sub-interval, and one record per curve: its four
-/// control points (x, y, z, radius), 64 bytes.
+/// control points (x, y, z, radius), 64 bytes, of which a device keeps 48 where the next curve of the strand
+/// begins.
 Geometry build_curved(const Curves& curves, const std::vector<uint32_t>& pieces, bool needs_flags);
 
 /// The surface that those records decode to: one cubic piece per curve.

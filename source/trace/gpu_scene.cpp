@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "scene/leaf_order.h"
+#include "scene/shared_records.h"
 
 #include <algorithm>
 #include <cassert>
@@ -24,11 +25,24 @@ enum ConstantId : uint32_t {
     is_in_place_id = 5,
     early_out_id = 6,
     gentle_first_id = 7,
+    strand_curves_id = 9,
     hardware_fma_id = 15  // shaders/shared/portable.h
 };
 
 // gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
 constexpr uint32_t shadow_flags = 0x4u | 0x8u;
+
+/// What a number is in every model; 0 where they differ or there are none.
+template <class NumberOf>
+uint32_t common_value(std::span<const SceneModel> models, NumberOf&& number_of) {
+    uint32_t common = 0;
+    for (size_t i = 0; i < models.size(); ++i) {
+        const uint32_t number = number_of(models[i].geometry);
+        if (i > 0 && number != common) return 0;
+        common = number;
+    }
+    return common;
+}
 
 /// A structure takes up to 128 bytes a leaf on the devices seen, and must fit one allocation.
 uint64_t leaves_per_structure(const DeviceInfo& info, uint64_t asked) {
@@ -106,13 +120,15 @@ void GpuScene::order_leaves(Geometry& geometry) {
 }
 
 void GpuScene::choose_skips(std::span<const SceneModel> models, std::span<const SceneInstance> instances) {
-    const uint32_t pieces = models.empty() ? 0 : models.front().geometry.uniform_pieces;
     const auto is_uniform = [](const SceneModel& model) { return model.geometry.uniform_pieces != 0; };
-    const auto has_as_many = [&](const SceneModel& model) { return model.geometry.uniform_pieces == pieces; };
     const auto is_in_place = [](const SceneInstance& i) { return i.world_from_object == glm::mat4x3(1.0f); };
+    const uint32_t pieces =
+        common_value(models, [](const Geometry& geometry) { return geometry.uniform_pieces; });
+    const uint32_t strand_curves = common_value(
+        models, [](const Geometry& geometry) { return overlapping_in_a_row(geometry.curve_records); });
     has_leaf_table_ = !skips("leaf-table", std::all_of(models.begin(), models.end(), is_uniform));
-    if (!has_leaf_table_ && skips("pieces", std::all_of(models.begin(), models.end(), has_as_many)))
-        uniform_pieces_ = pieces;
+    if (!has_leaf_table_ && skips("pieces", pieces != 0)) uniform_pieces_ = pieces;
+    if (skips("points", strand_curves != 0)) strand_curves_ = strand_curves;
     is_in_place_ = skips("transform", std::all_of(instances.begin(), instances.end(), is_in_place));
 }
 
@@ -127,7 +143,10 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     if (geometry.leaf_records.stride != 0)
         buffers.leaf_records = upload(device_, geometry.leaf_records.bytes, cost_);
     if (geometry.curve_records.stride != 0)
-        buffers.curve_records = upload(device_, geometry.curve_records.bytes, cost_);
+        buffers.curve_records =
+            strand_curves_ == 0
+                ? upload(device_, geometry.curve_records.bytes, cost_)
+                : upload(device_, without_overlaps(geometry.curve_records, strand_curves_), cost_);
     if (geometry.shading_records.stride != 0 && (options.normals || geometry.always_shades))
         buffers.shading_records = upload(device_, geometry.shading_records.bytes, cost_);
     cost_.builds.upload_ms += stopwatch.milliseconds();
@@ -213,6 +232,7 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(wants_normals_id, normals_ ? 1u : 0u);
     all.emplace_back(curves_of_a_ray_id, curves_of_a_ray_);
     all.emplace_back(uniform_pieces_id, uniform_pieces_);
+    all.emplace_back(strand_curves_id, strand_curves_);
     all.emplace_back(has_one_row_id, row_.empty() ? 0u : 1u);
     all.emplace_back(is_in_place_id, is_in_place_ ? 1u : 0u);
     all.emplace_back(early_out_id, skips("early-out", has_intersector_) ? 1u : 0u);

@@ -162,6 +162,7 @@ class GpuScene {
     std::vector<std::string> no_skips_;
     bool has_leaf_table_ = true;
     uint32_t uniform_pieces_ = 0;           // of all models; 0: they differ
+    uint32_t strand_curves_ = 0;            // that share points, in all strands of all models; 0: none do
     bool is_in_place_ = false;              // no instance is moved
     std::vector<layout::GeometryRow> row_;  // the only one, or none
     std::vector<Part> parts_;

@@ -10,6 +10,7 @@ namespace {
 constexpr Skip all[] = {
     {"leaf-table", "the table of leaves, 8 bytes each", "where all curves have as many leaves, in order"},
     {"pieces", "fetching and dividing by the number of leaves per curve", "where it is the same everywhere"},
+    {"points", "storing points twice where two curves meet", "where all strands have as many curves"},
     {"rows", "fetching the instance's addresses", "where there is one instance of one structure"},
     {"transform", "moving the ray into object space", "where no instance is moved"},
     {"early-out", "everything else of an intersector", "where the ray passes the piece by"},

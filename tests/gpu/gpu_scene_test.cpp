@@ -150,5 +150,39 @@ TEST_F(GpuSceneTest, NeighbouringPiecesLeaveNoGap) {
     for (size_t i = 0; i < rays.rays.size(); ++i) EXPECT_TRUE(result.hits.hits[i].is_hit()) << i;
 }
 
+TEST_F(GpuSceneTest, CurvesOfAStrandShareTheirPoints) {
+    // Eight zigzag strands of five curves, rays through every curve.
+    Curves curves;
+    Rays rays;
+    for (uint32_t strand = 0; strand < 8; ++strand) {
+        curves.strands.push_back({5 * strand, 5});
+        const auto point = [&](uint32_t k) {
+            return glm::vec4(float(k), float(4 * strand) + float(k % 2), float(k % 3), 0.05f);
+        };
+        for (uint32_t k = 0; k < 5; ++k) {
+            curves.curves.push_back({point(3 * k), point(3 * k + 1), point(3 * k + 2), point(3 * k + 3)});
+            rays.rays.push_back({{3 * float(k) + 1.5f, float(4 * strand) + 0.5f, 9}, 0, {0, 0, -1}, 1e30f});
+        }
+    }
+    for (const char* name : {"prhi", "rocaps"}) {
+        const PrimitiveChoice choice = parse_primitive(name);
+        const SceneInstance instance;
+        const auto scene_with = [&](const SceneOptions& options) {
+            std::vector<SceneModel> models;
+            models.push_back(model_of(choice, curves));
+            return GpuScene(device(), *choice.primitive, std::move(models), {&instance, 1}, options);
+        };
+        const GpuScene shared = scene_with({.ray_extent = 40});
+        const GpuScene separate = scene_with({.ray_extent = 40, .no_skips = {"points"}});
+        EXPECT_EQ(shared.cost().record_bytes + (40 - 8) * sizeof(glm::vec4), separate.cost().record_bytes);
+        const Hits a = shared.trace(rays).hits, b = separate.trace(rays).hits;
+        for (size_t i = 0; i < rays.rays.size(); ++i) {
+            EXPECT_EQ(a.hits[i].curve, i) << name;
+            EXPECT_EQ(a.hits[i].t, b.hits[i].t) << name << " " << i;
+            EXPECT_EQ(b.hits[i].curve, i) << name;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace strandlab
