@@ -82,19 +82,22 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
       curves_of_a_ray_(options.curves_of_a_ray),
       hardware_fma_(options.hardware_fma),
       no_skips_(options.no_skips) {
-    const bool keeps_order = device.info().is_lavapipe;
-    const bool reorders =
-        curves_of_a_ray_ == 0 && (options.order == SceneOptions::Order::median ||
-                                  (options.order == SceneOptions::Order::automatic && keeps_order));
     for (SceneModel& model : models) {
         if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
-        if (reorders && model.geometry.leaf_count() >= 3) order_leaves(model.geometry);
+        if (reorders(device.info(), options) && model.geometry.leaf_count() >= 3)
+            order_leaves(model.geometry);
     }
     choose_skips(models, instances);
     for (uint32_t i = 0; i < models.size(); ++i) add_model(models[i], i, options);
     add_instances(instances, models);
     if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options);
+}
+
+bool GpuScene::reorders(const DeviceInfo& device, const SceneOptions& options) {
+    const bool keeps_order = device.is_lavapipe;
+    return options.curves_of_a_ray == 0 && (options.order == SceneOptions::Order::median ||
+                                            (options.order == SceneOptions::Order::automatic && keeps_order));
 }
 
 void GpuScene::order_leaves(Geometry& geometry) {
