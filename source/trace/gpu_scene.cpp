@@ -24,6 +24,7 @@ enum ConstantId : uint32_t {
     is_in_place_id = 5,
     early_out_id = 6,
     gentle_first_id = 7,
+    blocks_of_lanes_id = 9,
     hardware_fma_id = 15  // shaders/shared/portable.h
 };
 
@@ -221,6 +222,8 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(early_out_id, skips("early-out", has_intersector_) ? 1u : 0u);
     all.emplace_back(gentle_first_id, skips("gentle", has_intersector_) ? 1u : 0u);
     all.emplace_back(hardware_fma_id, skips("splitting", hardware_fma_) ? 1u : 0u);
+    // On processors eight rays in a row of a picture share a vector: four by two meet more of the same boxes.
+    all.emplace_back(blocks_of_lanes_id, device_.info().kind == "cpu" ? 1u : 0u);
     pipelines_ = ScenePipelines(device_, primitive, std::move(all), curves_of_a_ray_ != 0, options.pipelines);
     cost_.traversal = options.traversal;
     if (options.traversal != Traversal::pipeline && !device_.can_query_rays()) {
