@@ -16,11 +16,17 @@ void write_normal(vec3 normal) {
     normals.items[3u * query_ray + 2u] = normal.z;
 }
 
+// Of 64 lanes along a Z-order curve.
+uvec2 place_in_tile(uint lane) {
+    return uvec2((lane & 1u) | ((lane >> 1) & 2u) | ((lane >> 2) & 4u),
+                 ((lane >> 1) & 1u) | ((lane >> 2) & 2u) | ((lane >> 3) & 4u));
+}
+
 void main() {
-    // Work groups are squares of a picture, or stretches of a list.
+    // Work groups are squares of a picture, lanes next to each other neighbours in it; or stretches of a list.
     uint lane = gl_LocalInvocationIndex;
-    uvec2 size = parameters.is_tiled != 0u ? uvec2(8u, 8u) : uvec2(64u, 1u);
-    uvec2 place = gl_WorkGroupID.xy * size + uvec2(lane % size.x, lane / size.x);
+    uvec2 place = gl_WorkGroupID.xy * uvec2(64u, 1u) + uvec2(lane, 0u);
+    if (parameters.is_tiled != 0u) place = gl_WorkGroupID.xy * 8u + place_in_tile(lane);
     query_ray = parameters.first_ray + place.y * parameters.width + place.x;
     if (place.x >= parameters.width || query_ray >= parameters.ray_count) return;
     Ray ray = RayBuffer(parameters.rays).items[query_ray];

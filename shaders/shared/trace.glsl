@@ -26,7 +26,8 @@ layout(constant_id = 5) const bool is_in_place = false;   // no instance is move
 layout(constant_id = 6) const bool early_out = true;      // leave what a ray passes before anything else
 layout(constant_id = 7) const bool gentle_first = true;   // the short way for rays that cross a piece gently
 layout(constant_id = 8) const bool counts_work = false;   // for profiles only: never where time is measured
-layout(constant_id = 9) const uint strand_curves = 0u;    // not 0: each strand's, which share the points they meet in
+layout(constant_id = 9) const bool blocks_of_lanes = false;  // pictures on processors: see ray_index
+layout(constant_id = 10) const uint strand_curves = 0u;   // not 0: each strand's, which share the points they meet in
 
 struct Ray {
     vec3 origin;
@@ -91,7 +92,16 @@ vec2 leaf_interval(Leaf leaf) {
 uint query_ray;
 uint ray_index() { return query_ray; }
 #else
-uint ray_index() { return parameters.first_ray + gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x; }
+uint ray_index() {
+    uvec2 place = gl_LaunchIDEXT.xy;
+    if (blocks_of_lanes && parameters.is_tiled != 0u) {
+        // Eight neighbours in a row become four by two, where both rows and all eight columns are there.
+        uvec2 corner = uvec2(place.x & ~7u, place.y & ~1u);
+        if (corner.x + 8u <= gl_LaunchSizeEXT.x && corner.y + 2u <= gl_LaunchSizeEXT.y)
+            place = corner + uvec2(((place.y & 1u) << 2) | (place.x & 3u), (place.x >> 2) & 1u);
+    }
+    return parameters.first_ray + place.y * gl_LaunchSizeEXT.x + place.x;
+}
 #endif
 
 // Whether the leaf belongs to another ray's curves.

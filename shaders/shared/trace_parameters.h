@@ -36,8 +36,8 @@ struct TraceParameters {
     uint is_shadow;   // not 0: only whether anything is hit
     GeometryRow row;  // the only one, where there is but one
     address counters; // 4 uints per ray; used only by shaders that count their work
-    uint width;       // of the launch, for ray queries: the pipeline knows it
-    uint is_tiled;    // likewise: neighbours lie in both directions, work groups are squares
+    uint width;       // of the launch, for ray queries: other shaders know it
+    uint is_tiled;    // a picture: neighbours lie in both directions
 };
 
 #ifdef __cplusplus

@@ -1,10 +1,14 @@
 #include "commands/ablation.h"
 
+#include "base/process_age.h"
+#include "base/stopwatch.h"
 #include "commands/bench_presets.h"
 #include "measure/bench_case.h"
 #include "measure/interleave.h"
 #include "measure/statistics.h"
+#include "primitives/curved_pieces.h"
 #include "report/table.h"
+#include "trace/embree_reference.h"
 #include "trace/skips.h"
 
 #include <fmt/format.h>
@@ -17,9 +21,15 @@
 namespace strandlab {
 namespace {
 
-/// A scene with all skips, or with one forced off.
+/// Host times of what comes before a scene is put on the device.
+struct StartTimes {
+    double device_ms = 0;  // with the loading of the program
+    double model_ms = 0, rays_ms = 0;
+};
+
+/// A scene with everything that makes it fast, or with one thing forced off.
 struct Variant {
-    std::string off;  // empty: none
+    std::string name;
     PreparedCase prepared;
     Hits hits;
 };
@@ -51,15 +61,30 @@ size_t differences(const Hits& a, const Hits& b, float radius) {
     return count;
 }
 
-std::vector<Variant> make_variants(CaseInput input, const PrimitiveChoice& choice, bool measure) {
+std::vector<Variant> make_variants(const CaseInput& input, const PrimitiveChoice& choice, bool measure) {
     std::vector<Variant> variants;
-    variants.push_back({"", prepare_case(input, choice), {}});
+    variants.push_back({"as it is", prepare_case(input, choice), {}});
+    if (!measure) return variants;
+    CaseInput other = input;
     for (const Skip& skip : skips()) {
-        if (!measure || !takes(variants.front(), skip.name)) continue;
-        input.options.no_skips = {std::string(skip.name)};
-        variants.push_back({std::string(skip.name), prepare_case(input, choice), {}});
+        if (!takes(variants.front(), skip.name)) continue;
+        other.options.no_skips = {std::string(skip.name)};
+        variants.push_back({"without " + std::string(skip.name), prepare_case(other, choice), {}});
+    }
+    if (input.device.gpu() != nullptr && GpuScene::reorders(input.device.info(), input.options)) {
+        other.options = input.options;
+        other.options.order = SceneOptions::Order::as_built;
+        variants.push_back({"leaves in file order", prepare_case(other, choice), {}});
     }
     return variants;
+}
+
+/// Embree's round curves on the same curves; nothing where its times have nothing to do with the device's: on
+/// another processor, and for shadow rays, or where a scene has instances.
+std::unique_ptr<EmbreeScene> embree_beside(const CaseInput& input) {
+    if (!embree_available() || input.device.info().kind != "cpu" || !input.scene.is_plain()) return nullptr;
+    return std::make_unique<EmbreeScene>(
+        curved_surface(input.scene.models[0], Surface::Sweep::disc, Caps::open));
 }
 
 void explain(const Variant& all, const PrimitiveChoice& choice) {
@@ -73,8 +98,32 @@ void explain(const Variant& all, const PrimitiveChoice& choice) {
     fmt::print("\n{}", table.to_string(standard_output_style()));
 }
 
-std::vector<double> median_times(std::vector<Variant>& variants, const CaseInput& input,
-                                 const MeasuredRays& rays, uint64_t seed) {
+/// What came before the first ray of the program could return, the first time.
+void explain_start(const Variant& all, const CaseInput& input, const StartTimes& start, const Rays& rays) {
+    Rays one;
+    one.rays.assign(rays.rays.begin(), rays.rays.begin() + std::min<ptrdiff_t>(1, std::ssize(rays.rays)));
+    const std::unique_ptr<TracedRays> buffers = input.device.upload(one, input.options.normals);
+    const Stopwatch stopwatch;
+    all.prepared.traced->run(*buffers, false);
+    const double trace_ms = stopwatch.milliseconds(), total = process_age_ms();
+    const SceneCost& cost = all.prepared.traced->cost();
+    fmt::print(
+        "start to first ray: {:.0f} ms: loading and opening the device {:.0f}, model {:.1f}, rays {:.1f}, "
+        "boxes and "
+        "records {:.1f}, order {:.1f}{}, upload {:.1f}, build {:.1f}, pipeline {:.1f}, first ray {:.1f}\n",
+        total, start.device_ms, start.model_ms, start.rays_ms, all.prepared.geometry_ms, cost.order_ms,
+        cost.order_cached ? " (kept from an earlier run)" : "", cost.builds.upload_ms, cost.builds.build_ms,
+        cost.pipeline_ms, trace_ms);
+    fmt::print("traversal: {}", name_of(cost.traversal));
+    if (cost.traversal_times)
+        fmt::print(" (measured: pipeline {:.3g} ms, query {:.3g} ms)", cost.traversal_times->pipeline_ms,
+                   cost.traversal_times->query_ms);
+    fmt::print("\n");
+}
+
+/// Median times of the variants and, last, of Embree where there is one.
+std::vector<double> median_times(std::vector<Variant>& variants, const EmbreeScene* embree,
+                                 const CaseInput& input, const MeasuredRays& rays, uint64_t seed) {
     const std::unique_ptr<TracedRays> buffers = input.device.upload(rays.rays, input.options.normals);
     std::vector<std::function<double()>> traces;
     for (Variant& variant : variants) {
@@ -83,6 +132,13 @@ std::vector<double> median_times(std::vector<Variant>& variants, const CaseInput
         traces.emplace_back(
             [&variant, &buffers, &rays] { return variant.prepared.traced->run(*buffers, rays.shadow); });
     }
+    std::vector<Hit> embree_hits(rays.rays.rays.size());
+    if (embree != nullptr)
+        traces.emplace_back([&] {
+            const Stopwatch stopwatch;
+            embree->trace(rays.rays.rays, std::span<Hit>(embree_hits));
+            return stopwatch.milliseconds();
+        });
     const auto samples =
         interleave(traces, {.rounds = input.samples, .warm_up_ms = input.warm_up_ms, .seed = seed});
     std::vector<double> times;
@@ -90,21 +146,31 @@ std::vector<double> median_times(std::vector<Variant>& variants, const CaseInput
     return times;
 }
 
-void measure_set(std::vector<Variant>& variants, const CaseInput& input, const MeasuredRays& rays,
-                 const PrimitiveChoice& choice, uint64_t seed) {
-    const std::vector<double> times = median_times(variants, input, rays, seed);
+void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, const CaseInput& input,
+                 const MeasuredRays& rays, const PrimitiveChoice& choice, uint64_t seed) {
+    const std::vector<double> times = median_times(variants, embree, input, rays, seed);
     Table table({{.heading = choice.label() + ", " + rays.rays.name, .text = true},
                  {"trace", "ms"},
                  {"time", "ratio"},
                  {"memory", "ratio"},
                  {"answers that differ", "rays"}});
-    for (size_t i = 0; i < variants.size(); ++i)
-        table.add_row(
-            {i == 0 ? "all skips" : "without " + variants[i].off, fmt::format("{:.4g}", times[i]),
-             fmt::format("{:.3f}", times[i] / times[0]),
-             fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
-                                       double(variants[0].prepared.resident_bytes())),
-             fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves)))});
+    const auto time_cells = [&](const std::string& name, size_t i) {
+        return std::vector<std::string>{name, fmt::format("{:.4g}", times[i]),
+                                        fmt::format("{:.3f}", times[i] / times[0])};
+    };
+    for (size_t i = 0; i < variants.size(); ++i) {
+        std::vector<std::string> cells = time_cells(variants[i].name, i);
+        cells.push_back(fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
+                                                  double(variants[0].prepared.resident_bytes())));
+        cells.push_back(
+            fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves))));
+        table.add_row(std::move(cells));
+    }
+    if (embree != nullptr) {
+        std::vector<std::string> cells = time_cells("Embree's round curves", variants.size());
+        cells.insert(cells.end(), {"-", "-"});  // of another surface
+        table.add_row(std::move(cells));
+    }
     fmt::print("\n{}", table.to_string(standard_output_style()));
     std::fflush(stdout);
 }
@@ -113,24 +179,37 @@ void measure_set(std::vector<Variant>& variants, const CaseInput& input, const M
 
 void print_ablation(BenchOptions& options, bool measure) {
     const TraceDevice device(options.device.options());
+    StartTimes start{.device_ms = process_age_ms()};
     apply_preset(options, device.info());
     options.rays.error_rays = 0;
     const Caps caps = options.primitives.scene_caps();
     fmt::print("{}\n", device.name());
+    bool is_first = true;
     for (const std::string& model : options.models.models) {
+        const Stopwatch model_stopwatch;
         const Scene scene = load_scene(model, options.models.curve_options());
         if (scene.curve_count() == 0) continue;
         const Curves curves = all_curves(scene);
+        start.model_ms = model_stopwatch.milliseconds();
+        const Stopwatch rays_stopwatch;
         const RaySets rays(scene, curves, options.rays, options.resolutions().front(), caps);
+        start.rays_ms = rays_stopwatch.milliseconds();
         CaseInput input{device, scene, curves, *options.repeat, warm_up_of(device.info()), {}};
         options.apply_to(input.options);
         input.options.ray_extent = object_extent(scene, rays.extent());
         fmt::print("\n{}\n", scene.name);
         for (const PrimitiveChoice& choice : options.primitives.choices()) {
             std::vector<Variant> variants = make_variants(input, choice, measure);
+            if (is_first) explain_start(variants.front(), input, start, rays.sets().front().rays);
+            is_first = false;
             explain(variants.front(), choice);
-            for (size_t set = 0; measure && set < rays.sets().size(); ++set)
-                measure_set(variants, input, rays.sets()[set], choice, options.rays.seed);
+            const std::unique_ptr<EmbreeScene> embree =
+                measure && !options.no_embree ? embree_beside(input) : nullptr;
+            for (size_t set = 0; measure && set < rays.sets().size(); ++set) {
+                const MeasuredRays& one = rays.sets()[set];
+                measure_set(variants, one.shadow ? nullptr : embree.get(), input, one, choice,
+                            options.rays.seed);
+            }
         }
     }
     device.check_validation();

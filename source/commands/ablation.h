@@ -5,8 +5,10 @@
 
 namespace strandlab {
 
-/// For every model and primitive: which skips (trace/skips.h) are taken. With `measure` each of them is also
-/// forced off, one at a time; time and memory are set against all taken, interleaved, and the hits compared.
+/// For every model and primitive: which skips (trace/skips.h) are taken; for the first of all, what the time
+/// from the program's start to its first ray was spent on. With `measure` each skip is also forced off, one
+/// at a time, and so is our order of leaves; time and memory are set against all taken, interleaved, and the
+/// hits compared. On a processor Embree's round curves are timed in the same rounds.
 void print_ablation(BenchOptions& options, bool measure);
 
 }  // namespace strandlab

@@ -49,6 +49,12 @@ struct PrimitiveArguments {
     bool several_ = true;
 };
 
+/// Of the option --bytes-per-curve.
+inline constexpr const char* bytes_per_curve_help =
+    "splits as many as keep structures and records within so many bytes for each curve, where they are of "
+    "most "
+    "use, instead of splits=N (0: as the primitives say)";
+
 /// Which device.
 struct DeviceArguments {
     std::string device;

@@ -1,14 +1,17 @@
 // strandlab bench: run time against memory and error, one row per case.
 #include "base/error.h"
+#include "base/file.h"
 #include "commands/ablation.h"
 #include "commands/bench_options.h"
 #include "commands/bench_run.h"
 #include "commands/command.h"
 #include "report/article_table.h"
 #include "report/baseline.h"
+#include "report/html/scale_chart.h"
 #include "report/merge.h"
 #include "report/result_json.h"
 #include "report/result_table.h"
+#include "report/scale_table.h"
 #include "report/words.h"
 
 #include <fmt/format.h>
@@ -30,6 +33,8 @@ int run(BenchOptions& options) {
     bench.run();
     bench.check_device();
     if (options.preset == "article") fmt::print("\n{}", article_table(bench.rows()));
+    if (options.preset == "scale") fmt::print("\n{}", scale_table(bench.rows()));
+    if (!options.scale_chart.empty()) write_file(options.scale_chart, scale_chart(bench.rows()));
     fmt::print("\n");
     for (const std::string& sentence : result_words(bench.rows())) fmt::print("{}\n", sentence);
     fmt::print("\n{}", result_legend());

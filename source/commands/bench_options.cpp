@@ -6,6 +6,8 @@
 #include "commands/usage_error.h"
 #include "trace/skips.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 
 namespace strandlab {
@@ -58,6 +60,7 @@ void BenchOptions::add_to(CLI::App& app) {
                    "primitives whose samples alternate (0: as many as fit the device together)")
         ->capture_default_str()
         ->check(whole_number(0, 10000));
+    app.add_option("--bytes-per-curve", bytes_per_curve, bytes_per_curve_help);
     app.add_option("--max-error", max_error,
                    "leave out cases with a model error p99 above this many radii, or over 1 % wrong rays");
     app.add_option("--max-memory", max_memory,
@@ -73,6 +76,7 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_option("--save-rays", save_rays,
                    "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
     app.add_option("--images", images, "folder for a picture of every case with primary rays");
+    app.add_option("--scale-chart", scale_chart, "cost against the number of curves, as an SVG file");
     app.add_option("--leaf-order", leaf_order, "order of leaves in builds: auto, file, median")
         ->capture_default_str();
     app.add_flag("--no-compaction", no_compaction, "keep acceleration structures as built");
@@ -103,8 +107,10 @@ void BenchOptions::check() const {
     device.options();
     if (!rays.resolution.empty()) resolutions();
     check_skips(no_skips);
-    const std::pair<const char*, double> limits[] = {
-        {"--max-error", max_error}, {"--max-memory", max_memory}, {"--time-budget", time_budget}};
+    const std::pair<const char*, double> limits[] = {{"--bytes-per-curve", bytes_per_curve},
+                                                     {"--max-error", max_error},
+                                                     {"--max-memory", max_memory},
+                                                     {"--time-budget", time_budget}};
     for (const auto& [option, value] : limits)
         if (!(value >= 0)) fail(ExitCode::usage, "{} {}: must be a number from 0 (no limit)", option, value);
     if (resume && json.empty()) fail(ExitCode::usage, "--resume: name the file to go on with by --json");
@@ -166,6 +172,8 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
     command.add("--repeat", std::to_string(row.settings.repeat));
     if (!options.device.device.empty()) command.add("--device", options.device.device);
     if (options.device.traversal != "pipeline") command.add("--traversal", options.device.traversal);
+    if (options.bytes_per_curve > 0)
+        command.add("--bytes-per-curve", fmt::format("{}", options.bytes_per_curve));
     if (options.leaf_order != "auto") command.add("--leaf-order", options.leaf_order);
     command.flag("--no-compaction", options.no_compaction);
     command.flag("--low-memory", options.low_memory);

@@ -23,11 +23,12 @@ struct BenchOptions {
     DeviceArguments device;
     std::string preset = "default";
     std::optional<uint32_t> repeat;
-    std::string json, csv, images, save_rays, leaf_order = "auto";
+    std::string json, csv, images, save_rays, scale_chart, leaf_order = "auto";
     std::string baseline_primitive;  // its label; empty: the first
     std::string baseline;            // result file to compare with
     std::string shard_text = "1/1";
     uint32_t interleave = 0;                                // primitives at a time; 0: as many as fit
+    double bytes_per_curve = 0;                             // 0: leaves as the primitives say
     double max_error = 0, max_memory = 0, time_budget = 0;  // 0: no limit
     bool resume = false;
     bool no_embree = false, no_compaction = false, no_normals = false, low_memory = false;

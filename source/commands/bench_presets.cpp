@@ -74,7 +74,15 @@ const std::vector<Preset>& presets() {
          {"primary"},
          20'000,
          {5, "640x360"},
-         {30, "1920x1080"}}};
+         {30, "1920x1080"}},
+        {"scale",
+         "cost against size: a head of 10,000 to 12 million curves, as far as the device goes",
+         {},
+         {"lss", "prhi", "rocaps"},
+         {"primary", "interior"},
+         0,
+         {5, "320x180"},
+         {10, "1920x1080"}}};
     return all;
 }
 
@@ -130,6 +138,19 @@ std::vector<std::string> article_models(const DeviceInfo& device) {
     return models;
 }
 
+/// The same hairstyle with ever more strands.
+std::vector<std::string> scale_models(const DeviceInfo& device) {
+    constexpr uint64_t pieces = 12, bytes_per_curve = 3000, most_on_a_processor = 1'000'000;
+    uint64_t most = device.memory == 0 ? most_on_a_processor : device.memory * 9 / 10 / bytes_per_curve;
+    if (device.kind == "cpu") most = std::min(most, most_on_a_processor);
+    std::vector<std::string> models;
+    for (const uint64_t curves : {10'000, 30'000, 100'000, 300'000, 1'000'000, 3'000'000, 12'000'000})
+        if (curves <= most)
+            models.push_back(fmt::format("generate:head,style=curly,length=0.2,strands={},points={}",
+                                         curves / pieces, pieces + 1));
+    return models;
+}
+
 }  // namespace
 
 std::string preset_help() {
@@ -145,7 +166,9 @@ void apply_preset(BenchOptions& options, const DeviceInfo& device) {
     const Preset& preset = preset_named(options.preset);
     const Effort& effort = device.kind == "cpu" ? preset.cpu : preset.gpu;
     if (options.models.models.empty())
-        options.models.models = preset.name == "article" ? article_models(device) : models_of(preset);
+        options.models.models = preset.name == "article" ? article_models(device)
+                                : preset.name == "scale" ? scale_models(device)
+                                                         : models_of(preset);
     if (options.primitives.primitives.empty()) options.primitives.primitives = preset.primitives;
     if (options.rays.names.empty()) options.rays.names = preset.rays;
     if (!options.has_error_rays()) options.rays.error_rays = preset.error_rays;

@@ -6,6 +6,7 @@
 #include "commands/bench_presets.h"
 #include "commands/embree_case.h"
 #include "commands/hit_files.h"
+#include "measure/memory_budget.h"
 #include "measure/pareto.h"
 #include "report/case_images.h"
 #include "report/distant_pictures.h"
@@ -202,7 +203,8 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
         if (std::any_of(block.open.begin(), block.open.end(),
                         [&](const Case& one) { return one.primitive == primitive; }))
             waiting.push_back(primitive);
-    SceneGroups groups(block.input, choices_, baseline_, waiting,
+    const std::vector<PrimitiveChoice> choices = choices_within_memory(block);
+    SceneGroups groups(block.input, choices, baseline_, waiting,
                        group_limits(device_.info(), options_.interleave));
     while (!is_over_budget()) {
         const auto group = groups.next();
@@ -218,6 +220,14 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
     if (!rows.empty()) fmt::print("\n{}", result_table(rows));
     if (options_.profile) fmt::print("\n{}", profile_table(rows));
     std::fflush(stdout);
+}
+
+std::vector<PrimitiveChoice> BenchRun::choices_within_memory(const Block& block) const {
+    std::vector<PrimitiveChoice> choices = choices_;
+    if (options_.bytes_per_curve > 0)
+        for (PrimitiveChoice& choice : choices)
+            choice = within_memory(block.input, choice, options_.bytes_per_curve);
+    return choices;
 }
 
 std::vector<BenchRun::Case> BenchRun::open_cases(Block& block) {
@@ -247,7 +257,8 @@ ResultRow BenchRun::base_row(const Block& block, size_t set, size_t primitive) c
                     options_.rays.error_rays, options_.leaf_order,
                     !options_.no_compaction,  !options_.no_normals,
                     options_.low_memory,      options_.device.traversal,
-                    options_.no_skips,        caps_};
+                    options_.no_skips,        caps_,
+                    options_.bytes_per_curve};
     row.seed = options_.rays.seed;
     row.context = context_;
     if (primitive == choices_.size()) return with_embree_facts(std::move(row));

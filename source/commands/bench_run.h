@@ -40,6 +40,7 @@ class BenchRun {
     void run_model(size_t model);
     void run_block(size_t model, size_t resolution, const Scene& scene, const Curves& curves);
     std::vector<Case> open_cases(Block& block);
+    std::vector<PrimitiveChoice> choices_within_memory(const Block& block) const;
     bool is_wanted(size_t number) const { return shard_.holds(number, axes_->cases()); }
     bool is_over_budget() const;
 

@@ -6,6 +6,7 @@
 #include "commands/occluder_shading.h"
 #include "commands/ray_arguments.h"
 #include "commands/usage_error.h"
+#include "measure/memory_budget.h"
 #include "report/images.h"
 #include "report/shading.h"
 
@@ -21,6 +22,7 @@ struct Options {
     std::string output, resolution = "960x540", camera, occluder;
     uint32_t samples = 4;
     uint64_t seed = 1;
+    double bytes_per_curve = 0;
     bool no_shadows = false;
 };
 
@@ -84,7 +86,8 @@ int run(const Options& options) {
     input.options.normals = true;
     input.options.traversal = options.device.asked_traversal();
     input.options.ray_extent = object_extent(scene, extent_of(rays));
-    const PreparedCase prepared = prepare_case(input, choice);
+    const PreparedCase prepared = prepare_case(
+        input, options.bytes_per_curve > 0 ? within_memory(input, choice, options.bytes_per_curve) : choice);
     const TraceResult trace = prepared.traced->trace(rays, {});
     ShadingOptions shading;
     shading.width = size.width;
@@ -99,8 +102,9 @@ int run(const Options& options) {
         behind = occluder_colours(occluder, whole_rays, *prepared.traced, shading, !options.no_shadows);
     device.check_validation();
     write_image(options.output, shade(rays, trace.hits, curves, shading, visible, behind));
-    inform("{}: {} x {}, {} samples a pixel, {}", options.output, size.width, size.height, options.samples,
-           choice.label());
+    inform("{}: {} x {}, {} samples a pixel, {}, {} leaves, {:.0f} bytes a curve", options.output, size.width,
+           size.height, options.samples, choice.label(), prepared.traced->cost().leaf_count,
+           double(prepared.resident_bytes()) / double(curves.curves.size()));
     return 0;
 }
 
@@ -120,6 +124,8 @@ Command render_command() {
                     ->required();
                 options->primitive.add_to(app, false);
                 options->device.add_to(app);
+                app.add_option("--bytes-per-curve", options->bytes_per_curve, bytes_per_curve_help)
+                    ->check(CLI::NonNegativeNumber);
                 app.add_option("--resolution", options->resolution, "WIDTHxHEIGHT")->capture_default_str();
                 app.add_option("--camera", options->camera, "eye=...:target=... or from=x,y,z[:zoom=factor]");
                 app.add_option("--samples", options->samples, "rays per pixel")

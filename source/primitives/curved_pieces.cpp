@@ -30,13 +30,15 @@ ParameterInfo splits_parameter(uint32_t default_splits) {
             .integer = true};
 }
 
-std::vector<uint32_t> curved_pieces(const Curves& curves, uint32_t splits, double max_turn) {
-    std::vector<uint32_t> pieces(curves.curves.size(), splits);
+std::vector<uint32_t> curved_pieces(const Curves& curves, uint32_t splits, double max_turn,
+                                    const LeafBudget& budget) {
+    std::vector<uint32_t> pieces(curves.curves.size(), budget.is_set() ? 1 : splits);
     parallel_for(pieces.size(), [&](size_t i) {
         const CurveD curve = to_double(curves.curves[i]);
         while (pieces[i] < most_pieces && turns_more(curve, pieces[i], max_turn))
             pieces[i] = std::min(most_pieces, 2 * pieces[i]);
     });
+    if (budget.is_set()) return pieces_within(curves, pieces, budget);
     return pieces;
 }
 

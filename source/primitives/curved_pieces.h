@@ -12,8 +12,10 @@ namespace strandlab {
 ParameterInfo splits_parameter(uint32_t default_splits);
 
 /// Leaves for each curve: `splits`, raised for a curve that turns so far that a piece would turn more than
-/// max_turn radians (bound by the control polygon of each piece).
-std::vector<uint32_t> curved_pieces(const Curves& curves, uint32_t splits, double max_turn);
+/// max_turn radians (bound by the control polygon of each piece). With a budget, as many as are of most use
+/// within it.
+std::vector<uint32_t> curved_pieces(const Curves& curves, uint32_t splits, double max_turn,
+                                    const LeafBudget& budget);
 
 /// Leaves, tight boxes of the swept balls on each sub-interval, and one record per curve: its four
 /// control points (x, y, z, radius), 64 bytes, of which a device keeps 48 where the next curve of the strand

@@ -14,10 +14,11 @@ Surface surface(const Curves&, const BuildOptions& options) {
 }
 
 Geometry build(const Curves& curves, const BuildOptions& options) {
-    Geometry geometry = build_curved(
-        curves,
-        curved_pieces(curves, options.parameters.integer("splits"), std::numeric_limits<double>::infinity()),
-        false);
+    Geometry geometry =
+        build_curved(curves,
+                     curved_pieces(curves, options.parameters.integer("splits"),
+                                   std::numeric_limits<double>::infinity(), options.leaf_budget),
+                     false);
     geometry.curve_records = {};
     return geometry;
 }

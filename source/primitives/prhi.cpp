@@ -3,6 +3,8 @@
 #include "primitives/curved_pieces.h"
 #include "primitives/kernel.h"
 
+#include <limits>
+
 namespace strandlab {
 namespace kernels {
 
@@ -64,9 +66,8 @@ Geometry build(const Curves& curves, const BuildOptions& options) {
     const bool is_robust_variant = is_robust(options.parameters);
     const uint32_t splits = number_or(options.parameters, "splits", 1, 4);
     // The iteration is safe on pieces that turn at most a quarter; the published algorithm does not split.
-    const std::vector<uint32_t> pieces = is_robust_variant
-                                             ? curved_pieces(curves, splits, quarter_turn)
-                                             : std::vector<uint32_t>(curves.curves.size(), splits);
+    const double most_turn = is_robust_variant ? quarter_turn : std::numeric_limits<double>::infinity();
+    const std::vector<uint32_t> pieces = curved_pieces(curves, splits, most_turn, options.leaf_budget);
     Geometry geometry = build_curved(curves, pieces, flat);
     geometry.constants = {{robust, is_robust_variant ? 1u : 0u},
                           {iterations, number_or(options.parameters, "iterations", 8, 24)},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/parameters.h"
+#include "primitives/leaf_budget.h"
 #include "scene/caps.h"
 #include "scene/geometry.h"
 #include "scene/rays.h"
@@ -62,6 +63,8 @@ struct Tolerance {
 struct BuildOptions {
     Parameters parameters;
     Caps caps = Caps::round;  // one of the primitive's own
+    /// Where set, and the primitive has the parameter "splits": how many leaves there may be instead of that.
+    LeafBudget leaf_budget = {};
 };
 
 /// A primitive. All members but the functions are plain descriptions.

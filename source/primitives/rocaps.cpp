@@ -100,7 +100,8 @@ Geometry build(const Curves& curves, const BuildOptions& options) {
     const bool is_verified = options.parameters.is("variant", "verified");
     uint32_t splits = options.parameters.integer("splits");
     if (splits == 0) splits = is_verified ? 4 : 1;
-    const std::vector<uint32_t> pieces(curves.curves.size(), splits);
+    const std::vector<uint32_t> pieces =
+        curved_pieces(curves, splits, std::numeric_limits<double>::infinity(), options.leaf_budget);
     Geometry geometry = build_curved(curves, pieces, false);
     mark_strand_ends(curves, geometry);
     const auto epsilon = static_cast<float>(options.parameters.number("epsilon"));

@@ -113,11 +113,17 @@ Json to_json(const std::vector<DistantError>& errors) {
 }
 
 Json to_json(const BenchSettings& settings) {
-    return {{"repeat", settings.repeat},         {"warm_up_ms", json_number(settings.warm_up_ms)},
-            {"error_rays", settings.error_rays}, {"leaf_order", settings.leaf_order},
-            {"compaction", settings.compaction}, {"normals", settings.normals},
-            {"low_memory", settings.low_memory}, {"traversal", settings.traversal},
-            {"no_skips", settings.no_skips},     {"caps", name_of(settings.caps)}};
+    return {{"repeat", settings.repeat},
+            {"warm_up_ms", json_number(settings.warm_up_ms)},
+            {"error_rays", settings.error_rays},
+            {"leaf_order", settings.leaf_order},
+            {"compaction", settings.compaction},
+            {"normals", settings.normals},
+            {"low_memory", settings.low_memory},
+            {"traversal", settings.traversal},
+            {"no_skips", settings.no_skips},
+            {"caps", name_of(settings.caps)},
+            {"bytes_per_curve", json_number(settings.bytes_per_curve)}};
 }
 
 Json to_json(const ModelFacts& model) {

@@ -79,6 +79,7 @@ struct BenchSettings {
     std::string traversal = "pipeline";  // as asked for; the row's cost has the one that was used
     std::vector<std::string> no_skips;   // forced off
     Caps caps = Caps::round;
+    double bytes_per_curve = 0;  // limit of --bytes-per-curve; 0: none
 
     /// " order=median compaction=0 normals=0": what changes the case and is not the default.
     std::string key() const;

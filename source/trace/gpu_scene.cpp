@@ -25,7 +25,8 @@ enum ConstantId : uint32_t {
     is_in_place_id = 5,
     early_out_id = 6,
     gentle_first_id = 7,
-    strand_curves_id = 9,
+    blocks_of_lanes_id = 9,
+    strand_curves_id = 10,
     hardware_fma_id = 15  // shaders/shared/portable.h
 };
 
@@ -96,19 +97,22 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
       curves_of_a_ray_(options.curves_of_a_ray),
       hardware_fma_(options.hardware_fma),
       no_skips_(options.no_skips) {
-    const bool keeps_order = device.info().is_lavapipe;
-    const bool reorders =
-        curves_of_a_ray_ == 0 && (options.order == SceneOptions::Order::median ||
-                                  (options.order == SceneOptions::Order::automatic && keeps_order));
     for (SceneModel& model : models) {
         if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
-        if (reorders && model.geometry.leaf_count() >= 3) order_leaves(model.geometry);
+        if (reorders(device.info(), options) && model.geometry.leaf_count() >= 3)
+            order_leaves(model.geometry);
     }
     choose_skips(models, instances);
     for (uint32_t i = 0; i < models.size(); ++i) add_model(models[i], i, options);
     add_instances(instances, models);
     if (!parts_.empty()) make_pipeline(primitive, models.front().geometry.constants, options);
+}
+
+bool GpuScene::reorders(const DeviceInfo& device, const SceneOptions& options) {
+    const bool keeps_order = device.is_lavapipe;
+    return options.curves_of_a_ray == 0 && (options.order == SceneOptions::Order::median ||
+                                            (options.order == SceneOptions::Order::automatic && keeps_order));
 }
 
 void GpuScene::order_leaves(Geometry& geometry) {
@@ -238,6 +242,8 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(early_out_id, skips("early-out", has_intersector_) ? 1u : 0u);
     all.emplace_back(gentle_first_id, skips("gentle", has_intersector_) ? 1u : 0u);
     all.emplace_back(hardware_fma_id, skips("splitting", hardware_fma_) ? 1u : 0u);
+    // On processors eight rays in a row of a picture share a vector: four by two meet more of the same boxes.
+    all.emplace_back(blocks_of_lanes_id, device_.info().kind == "cpu" ? 1u : 0u);
     pipelines_ = ScenePipelines(device_, primitive, std::move(all), curves_of_a_ray_ != 0, options.pipelines);
     cost_.traversal = options.traversal;
     if (options.traversal != Traversal::pipeline && !device_.can_query_rays()) {

@@ -109,6 +109,8 @@ class GpuScene {
              std::span<const SceneInstance> instances, const SceneOptions& options);
 
     const SceneCost& cost() const { return cost_; }
+    /// Whether leaves are put into an order of ours for this device.
+    static bool reorders(const DeviceInfo& device, const SceneOptions& options);
 
     /// Traces all rays; invalid ones count as misses. normals as the scene was made for.
     TraceResult trace(const Rays& rays, const TraceOptions& options = {}) const;

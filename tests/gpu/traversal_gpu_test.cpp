@@ -81,12 +81,18 @@ TEST_P(TraversalTest, QueriesGiveTheAnswersOfThePipeline) {
 }
 
 TEST_P(TraversalTest, PicturesOfAnyShapeAreTracedWhole) {
-    if (!device_->can_query_rays()) GTEST_SKIP() << "no ray queries";
-    Rays picture = rays;
-    picture.width = 13;
-    picture.height = static_cast<uint32_t>(picture.rays.size() / 13);
-    picture.rays.resize(size_t(picture.width) * picture.height);
-    expect_same(scene({}).trace(picture).hits, scene({.traversal = Traversal::query}).trace(picture).hits);
+    const GpuScene pipeline = scene({}),
+                   query = scene(
+                       {.traversal = device_->can_query_rays() ? Traversal::query : Traversal::pipeline});
+    for (const uint32_t width : {1u, 13u, 16u, 27u}) {
+        Rays picture = rays;
+        picture.rays.resize(picture.rays.size() / width * width);
+        const Hits list = pipeline.trace(picture).hits;
+        picture.width = width;
+        picture.height = static_cast<uint32_t>(picture.rays.size() / width);
+        expect_same(list, pipeline.trace(picture).hits);
+        expect_same(list, query.trace(picture).hits);
+    }
 }
 
 TEST_P(TraversalTest, AutomaticChoosesTheFasterOfWhatItMeasured) {
