@@ -387,16 +387,18 @@ CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, c
     const Resolution& size = resolutions_[block.resolution];
     std::string scene = block.scene.name;
     if (resolutions_.size() > 1) scene += "_" + axes_->resolutions[block.resolution];
-    const CaseImages files = write_case_images({.folder = options_.images,
-                                                .scene = scene,
-                                                .label = prepared.choice.label(),
-                                                .width = size.width,
-                                                .height = size.height,
-                                                .rays = rays.rays,
-                                                .hits = hits,
-                                                .curves = block.curves,
-                                                .reference = block.picture_reference,
-                                                .world_from_object = transforms});
+    const CaseImages files =
+        write_case_images({.folder = options_.images,
+                           .scene = scene,
+                           .label = prepared.choice.label(),
+                           .width = size.width,
+                           .height = size.height,
+                           .rays = rays.rays,
+                           .hits = hits,
+                           .curves = block.curves,
+                           .reference = block.picture_reference,
+                           .to_light = light_direction(camera_of(block.scene, options_.rays, size)),
+                           .world_from_object = transforms});
     const auto in_row = [&](const std::string& path) {
         return path.empty() ? "" : path_in_row(path, options_.json);
     };

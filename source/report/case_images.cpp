@@ -66,6 +66,7 @@ CaseImages write_case_images(const CasePicture& picture) {
     ShadingOptions shading;
     shading.width = picture.width;
     shading.height = picture.height;
+    shading.to_light = picture.to_light;
     const std::string label = file_name_of(picture.label);
     CaseImages images;
     images.rendered = path(label);

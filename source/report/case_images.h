@@ -24,6 +24,7 @@ struct CasePicture {
     const Curves& curves;
     /// What the common reference hits; empty: no reference picture and no error map.
     std::span<const ReferenceHit> reference = {};
+    glm::dvec3 to_light{0, 1, 0};  // unit
     /// Transforms of the instances that hits name; empty: one instance, not moved.
     std::span<const glm::mat4x3> world_from_object = {};
 };
