@@ -17,7 +17,7 @@ namespace strandlab {
 
 /// The picture of a case, one ray per pixel, rows from the top.
 struct CasePicture {
-    std::string folder, scene, label;  // the files are called FOLDER/SCENE_LABEL.png and so on
+    std::string folder, scene, label;  // the files are called FOLDER/SCENE_LABEL.png: names of files already
     uint32_t width = 0, height = 0;
     const Rays& rays;
     const Hits& hits;  // with normals
