@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr PlotArea area{54, 40, 374, 254};
+constexpr PlotArea area{64, 40, 374, 254};
 
 struct Sample {
     double scale, value;
