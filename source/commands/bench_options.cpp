@@ -73,8 +73,10 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_flag("--resume", resume, "leave out the cases that the --json file already holds");
     app.add_option("--baseline", baseline,
                    "compare with the rows of this file; exit 1 when slower or more wrong");
-    app.add_option("--save-rays", save_rays,
-                   "folder for the rays of every set, MODEL.SET.npy, for trace and other programs");
+    app.add_option(
+        "--save-rays", save_rays,
+        "folder for the rays of every set, MODEL.SET.npy (MODEL.WxH.SET.npy where there are several "
+        "resolutions), for trace and other programs");
     app.add_option("--images", images, "folder for a picture of every case with primary rays");
     app.add_option("--scale-chart", scale_chart, "cost against the number of curves, as an SVG file");
     app.add_option("--leaf-order", leaf_order, "order of leaves in builds: auto, file, median")

@@ -54,7 +54,7 @@ const std::vector<Preset>& presets() {
          {},
          {"primary", "diffuse"},
          10'000,
-         {5, "640x360"},
+         {15, "640x360"},
          {20, "1920x1080"}},
         {"full",
          "all kinds of rays, all primitives over their parameters",

@@ -10,6 +10,7 @@
 #include "measure/pareto.h"
 #include "report/case_images.h"
 #include "report/distant_pictures.h"
+#include "report/file_name.h"
 #include "report/images.h"
 #include "report/profile_table.h"
 #include "report/result_json.h"
@@ -71,6 +72,14 @@ void prepare_image_folder(const std::string& folder) {
     check_image_path((std::filesystem::path(folder) / "x.png").string());
 }
 
+/// Ray sets from files by the files' names alone.
+std::vector<std::string> without_folders(std::vector<std::string> sets) {
+    for (std::string& set : sets)
+        if (const size_t end = set.rfind(".npy"); end != std::string::npos)
+            set = std::filesystem::path(set.substr(0, end)).filename().string() + set.substr(end + 4);
+    return sets;
+}
+
 /// The path as a row holds it: from the folder of the rows' file, so that both can be moved together.
 std::string path_in_row(const std::string& path, const std::string& json) {
     namespace fs = std::filesystem;
@@ -125,6 +134,9 @@ BenchRun::BenchRun(BenchOptions& options)
     for (const PrimitiveChoice& choice : choices_) axes.primitives.push_back(choice.label());
     if (with_embree_) axes.primitives.emplace_back(embree_label);
     sweep_id_ = axes.hash(fmt::format("seed={} caps={}", options_.rays.seed, name_of(caps_)));
+    model_files_ = file_names_of(axes.models);
+    ray_files_ = file_names_of(without_folders(axes.rays));
+    primitive_files_ = file_names_of(axes.primitives);
     axes_ = std::make_shared<SweepAxes>(std::move(axes));
 
     writer_ = std::make_unique<ResultWriter>(options_.json, options_.csv, options_.resume);
@@ -193,7 +205,9 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
     block.input.options.ray_extent = object_extent(scene, block.rays.extent());
     if (!options_.save_rays.empty())
         for (size_t set = 0; set < wanted.size(); ++set)
-            if (wanted[set]) write_rays(options_.save_rays, scene.name, block.rays.sets()[set].rays);
+            if (wanted[set])
+                write_rays(options_.save_rays, file_stem(block, ".") + "." + ray_files_[set],
+                           block.rays.sets()[set].rays);
     block.open = open_cases(block);
 
     measure_distances(block);
@@ -386,6 +400,11 @@ void BenchRun::measure_distances(Block& block) const {
     }
 }
 
+std::string BenchRun::file_stem(const Block& block, const char* separator) const {
+    const std::string& model = model_files_[block.model];
+    return resolutions_.size() > 1 ? model + separator + axes_->resolutions[block.resolution] : model;
+}
+
 CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
                                    const Hits& hits) const {
     if (block.picture_reference.empty())
@@ -396,18 +415,18 @@ CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, c
         for (const SceneInstance& instance : block.scene.instances)
             transforms.push_back(instance.world_from_object);
     const Resolution& size = resolutions_[block.resolution];
-    std::string scene = block.scene.name;
-    if (resolutions_.size() > 1) scene += "_" + axes_->resolutions[block.resolution];
-    const CaseImages files = write_case_images({.folder = options_.images,
-                                                .scene = scene,
-                                                .label = prepared.choice.label(),
-                                                .width = size.width,
-                                                .height = size.height,
-                                                .rays = rays.rays,
-                                                .hits = hits,
-                                                .curves = block.curves,
-                                                .reference = block.picture_reference,
-                                                .world_from_object = transforms});
+    const CaseImages files =
+        write_case_images({.folder = options_.images,
+                           .scene = file_stem(block, "_"),
+                           .label = primitive_files_[index_of(choices_, prepared.choice)],
+                           .width = size.width,
+                           .height = size.height,
+                           .rays = rays.rays,
+                           .hits = hits,
+                           .curves = block.curves,
+                           .reference = block.picture_reference,
+                           .to_light = light_direction(camera_of(block.scene, options_.rays, size)),
+                           .world_from_object = transforms});
     const auto in_row = [&](const std::string& path) {
         return path.empty() ? "" : path_in_row(path, options_.json);
     };

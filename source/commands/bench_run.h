@@ -56,6 +56,8 @@ class BenchRun {
 
     ResultRow base_row(const Block& block, size_t set, size_t primitive) const;
     std::string device_line() const;
+    /// What files of a model are called; with the resolution behind `separator` where the sweep has several.
+    std::string file_stem(const Block& block, const char* separator) const;
     CaseFiles write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
                              const Hits& hits) const;
 
@@ -67,6 +69,7 @@ class BenchRun {
     std::vector<Resolution> resolutions_;
     Shard shard_;
     std::shared_ptr<const SweepAxes> axes_;
+    std::vector<std::string> model_files_, ray_files_, primitive_files_;  // parts of file names, of the axes
     uint64_t sweep_id_ = 0;
     size_t baseline_ = 0;  // index of the baseline primitive
     bool with_embree_ = false;

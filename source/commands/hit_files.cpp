@@ -37,10 +37,9 @@ Rays load_ray_file(const std::string& path) {
     return std::move(loaded.rays);
 }
 
-void write_rays(const std::string& folder, const std::string& model, const Rays& rays) {
+void write_rays(const std::string& folder, const std::string& name, const Rays& rays) {
     make_folder(folder);
-    const std::string set = std::filesystem::path(rays.name).stem().string();
-    write_npy((std::filesystem::path(folder) / (model + "." + set + ".npy")).string(), {"<f4", {8}},
+    write_npy((std::filesystem::path(folder) / (name + ".npy")).string(), {"<f4", {8}},
               std::span<const Ray>(rays.rays));
 }
 

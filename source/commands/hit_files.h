@@ -12,8 +12,8 @@ namespace strandlab {
 /// warning and miss.
 Rays load_ray_file(const std::string& path);
 
-/// Writes a named ray set as FOLDER/MODEL.SET.npy in that form, into a folder that is made when missing.
-void write_rays(const std::string& folder, const std::string& model, const Rays& rays);
+/// Writes rays as FOLDER/NAME.npy in that form, into a folder that is made when missing.
+void write_rays(const std::string& folder, const std::string& name, const Rays& rays);
 
 /// Writes t.npy float32 [M] (+inf is a miss), curve.npy int32 [M] (-1), u.npy float32 [M] and, where
 /// there are normals, normal.npy float32 [M,3], into a folder that is made when missing.

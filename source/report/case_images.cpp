@@ -1,7 +1,6 @@
 #include "report/case_images.h"
 
 #include "base/parallel.h"
-#include "report/file_name.h"
 #include "report/shading.h"
 
 #include <algorithm>
@@ -59,21 +58,20 @@ Hits hits_of(std::span<const ReferenceHit> reference) {
 }
 
 CaseImages write_case_images(const CasePicture& picture) {
-    const std::string scene = file_name_of(picture.scene);
     const auto path = [&](const std::string& name) {
-        return (std::filesystem::path(picture.folder) / (scene + "_" + name + ".png")).string();
+        return (std::filesystem::path(picture.folder) / (picture.scene + "_" + name + ".png")).string();
     };
     ShadingOptions shading;
     shading.width = picture.width;
     shading.height = picture.height;
-    const std::string label = file_name_of(picture.label);
+    shading.to_light = picture.to_light;
     CaseImages images;
-    images.rendered = path(label);
+    images.rendered = path(picture.label);
     write_image(images.rendered, shade(picture.rays, picture.hits, picture.curves, shading));
     if (picture.reference.empty()) return images;
     images.reference = path("reference");
     write_image(images.reference, shade(picture.rays, hits_of(picture.reference), picture.curves, shading));
-    images.error_map = path(label + "_errors");
+    images.error_map = path(picture.label + "_errors");
     const ComparisonInput input{.rays = picture.rays.rays,
                                 .hits = picture.hits.hits,
                                 .reference = picture.reference,

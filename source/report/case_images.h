@@ -17,13 +17,14 @@ namespace strandlab {
 
 /// The picture of a case, one ray per pixel, rows from the top.
 struct CasePicture {
-    std::string folder, scene, label;  // the files are called FOLDER/SCENE_LABEL.png and so on
+    std::string folder, scene, label;  // the files are called FOLDER/SCENE_LABEL.png: names of files already
     uint32_t width = 0, height = 0;
     const Rays& rays;
     const Hits& hits;  // with normals
     const Curves& curves;
     /// What the common reference hits; empty: no reference picture and no error map.
     std::span<const ReferenceHit> reference = {};
+    glm::dvec3 to_light{0, 1, 0};  // unit
     /// Transforms of the instances that hits name; empty: one instance, not moved.
     std::span<const glm::mat4x3> world_from_object = {};
 };

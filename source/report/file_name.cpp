@@ -1,6 +1,7 @@
 #include "report/file_name.h"
 
 #include <cctype>
+#include <set>
 
 namespace strandlab {
 
@@ -16,6 +17,18 @@ std::string file_name_of(std::string_view text) {
     if (name.size() > 60) name.resize(60);
     while (name.ends_with('_')) name.pop_back();
     return name.empty() ? "unnamed" : name;
+}
+
+std::vector<std::string> file_names_of(std::span<const std::string> texts) {
+    std::vector<std::string> names;
+    std::set<std::string> taken;
+    for (const std::string& text : texts) {
+        const std::string name = file_name_of(text);
+        names.push_back(name);
+        for (int i = 2; !taken.insert(names.back()).second; ++i)
+            names.back() = name + "-" + std::to_string(i);
+    }
+    return names;
 }
 
 }  // namespace strandlab

@@ -356,6 +356,33 @@ TEST_F(SweepTest, PartsRunAsASlurmJobArray) {
     EXPECT_NE(status, 0);
 }
 
+TEST_F(SweepTest, SavesTheRaysOfEveryModelAndResolutionApart) {
+    // Two models of one name, two files of rays of one name, two resolutions.
+    for (const char* folder : {"a", "b"}) {
+        std::filesystem::create_directory(path(folder));
+        const float at = folder[0] == 'a' ? 0.0f : 0.5f;
+        write_curves(path(std::string(folder) + "/m.npy"), {line_curve({at, 0, 0}, {at, 1, 0}, 0.1f)});
+        write_rays(path(std::string(folder) + "/r.npy"), {{{at, 0.5f, 2}, 0, {0, 0, -1}, 1e30f}});
+    }
+    expect_success(run({"bench",       "a/m.npy",  "b/m.npy", "--device",    "cpu-float", "--rays",
+                        "primary",     "--rays",   "a/r.npy", "--rays",      "b/r.npy",   "--resolution",
+                        "8x6,4x2",     "--repeat", "1",       "--primitive", "lss",       "--no-embree",
+                        "--save-rays", "rays",     "--json",  "r.jsonl"}));
+    std::map<std::string, size_t> bytes;
+    for (const auto& entry : std::filesystem::directory_iterator(path("rays")))
+        bytes[entry.path().filename().string()] = entry.file_size();
+    EXPECT_EQ(bytes.size(), 12u);
+    for (const char* model : {"m", "m-2"}) {
+        EXPECT_EQ(bytes[model + std::string(".8x6.primary.npy")], 128u + 48 * 32) << model;
+        EXPECT_EQ(bytes[model + std::string(".4x2.primary.npy")], 128u + 8 * 32) << model;
+        EXPECT_EQ(bytes[model + std::string(".8x6.r-2.npy")], 128u + 32) << model;
+    }
+    EXPECT_NE(read("rays/m.8x6.primary.npy"), read("rays/m-2.8x6.primary.npy"));
+    EXPECT_EQ(read("rays/m.8x6.r.npy"), read("a/r.npy"));
+    EXPECT_EQ(read("rays/m.8x6.r-2.npy"), read("b/r.npy"));
+    EXPECT_EQ(read("rays/m-2.4x2.r-2.npy"), read("b/r.npy"));
+}
+
 TEST_F(SweepTest, EveryPresetHasItsModels) {
     for (const char* preset : {"quick", "default", "full"}) {
         const Outcome outcome = run({"bench", "--preset", preset, "--device", "cpu-float", "--resolution",

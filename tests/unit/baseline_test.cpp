@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "measure/bench_case.h"
+#include "measure/interleave.h"
 #include "primitives/curved_pieces.h"
 #include "report/result_json.h"
 #include "trace/cpu_trace.h"
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace strandlab {
 namespace {
@@ -143,48 +145,97 @@ Geometry thickened(const Curves& curves, const BuildOptions& options) {
     return primitive_named("lss").build(thick, options);
 }
 
-/// The row of such a primitive on a few strands, by the C++ version.
-Json traced_row(const Primitive& primitive) {
-    Curves curves;
-    for (uint32_t s = 0; s < 40; ++s) {
-        const auto x = static_cast<float>(s) * 0.1f;
-        Curve curve;
-        for (int k = 0; k < 4; ++k)
-            curve[k] = glm::vec4(x + 0.02f * float(k * k % 3), 0.3f * float(k), 0, 0.02f);
-        curves.curves.push_back(curve);
-        curves.strands.push_back({s, 1});
+/// A few strands with rays that start among them, for the C++ versions.
+class FewStrands {
+  public:
+    explicit FewStrands(size_t rays) : scene_(scene_of("few", strands())), device_({"cpu-float", false}) {
+        rays_.rays = interior_rays(scene_.models[0], rays, 5);
+        input_.options.normals = true;
+        input_.options.ray_extent = 5;
     }
-    const Scene scene = scene_of("few", curves);
-    MeasuredRays rays;
-    rays.rays = interior_rays(curves, 3000, 5);
-    rays.sample = error_sample(rays.rays.rays.size(), 3000);
-    rays.sample_rays = selected(rays.rays, rays.sample);
-    const std::vector<Surface> common = common_surfaces(scene, Caps::round);
-    rays.common = make_scene_reference(scene, common, curves, rays.sample_rays);
-    const TraceDevice device({"cpu-float", false});
-    CaseInput input{device, scene, curves};
-    input.options.normals = true;
-    input.options.ray_extent = 5;
-    PrimitiveChoice choice = parse_primitive("lss:segments=16");
-    choice.primitive = &primitive;
-    const PreparedCase prepared = prepare_case(input, choice);
-    const Hits hits = prepared.traced->trace(rays.rays, {}).hits;
-    CaseErrors errors = errors_of(input, choice, rays, selected(hits, rays.sample));
-    ResultRow row = row_of("lss:segments=16", 1, 1);
-    row.intersector_error = errors.own;
-    row.model_error = errors.model;
-    return to_json(row);
-}
+
+    /// The row of a primitive's errors in place of those of lss.
+    Json row_with_errors(const Primitive& primitive) {
+        rays_.sample = error_sample(rays_.rays.rays.size(), rays_.rays.rays.size());
+        rays_.sample_rays = selected(rays_.rays, rays_.sample);
+        const std::vector<Surface> common = common_surfaces(scene_, Caps::round);
+        rays_.common = make_scene_reference(scene_, common, scene_.models[0], rays_.sample_rays);
+        PrimitiveChoice choice = parse_primitive("lss:segments=16");
+        choice.primitive = &primitive;
+        const PreparedCase prepared = prepare_case(input_, choice);
+        const Hits hits = prepared.traced->trace(rays_.rays, {}).hits;
+        CaseErrors errors = errors_of(input_, choice, rays_, selected(hits, rays_.sample));
+        ResultRow row = row_of("lss:segments=16", 1, 1);
+        row.intersector_error = errors.own;
+        row.model_error = errors.model;
+        return to_json(row);
+    }
+
+    /// The row of real times of prhi, whose work on every ray is done `times` over, beside lss.
+    Json row_with_times(int times) const {
+        const PreparedCase lss = prepare_case(input_, parse_primitive("lss"));
+        const PreparedCase prhi = prepare_case(input_, parse_primitive("prhi"));
+        const auto buffers = device_.upload(rays_.rays, true);
+        const std::vector<std::function<double()>> traces{[&] { return lss.traced->run(*buffers, false); },
+                                                          [&] {
+                                                              double sum = 0;
+                                                              for (int i = 0; i < times; ++i)
+                                                                  sum += prhi.traced->run(*buffers, false);
+                                                              return sum;
+                                                          }};
+        const std::vector<TimeSamples> samples = interleave(traces, {.rounds = 15});
+        ResultRow row = row_of("prhi", 1, 1);
+        row.trace_ms = samples[1].device_ms;
+        row.ratio = TimeRatio{"lss", {}};
+        for (size_t i = 0; i < row.trace_ms.size(); ++i)
+            row.ratio->samples.push_back(row.trace_ms[i] / samples[0].device_ms[i]);
+        return to_json(row);
+    }
+
+  private:
+    static Curves strands() {
+        Curves curves;
+        for (uint32_t s = 0; s < 40; ++s) {
+            const auto x = static_cast<float>(s) * 0.1f;
+            Curve curve;
+            for (int k = 0; k < 4; ++k)
+                curve[k] = glm::vec4(x + 0.02f * float(k * k % 3), 0.3f * float(k), 0, 0.02f);
+            curves.curves.push_back(curve);
+            curves.strands.push_back({s, 1});
+        }
+        return curves;
+    }
+
+    Scene scene_;
+    TraceDevice device_;
+    MeasuredRays rays_;
+    CaseInput input_{device_, scene_, scene_.models[0]};
+};
 
 TEST(Baseline, FindsAPrimitiveWhoseRadiusIsOnePercentOff) {
     const Primitive& right = primitive_named("lss");
     Primitive wrong = right;
     wrong.build = thickened<1>;
-    const std::vector<Json> before{traced_row(right)}, again{traced_row(right)}, now{traced_row(wrong)};
+    FewStrands strands(3000);
+    const std::vector<Json> before{strands.row_with_errors(right)}, again{strands.row_with_errors(right)},
+        now{strands.row_with_errors(wrong)};
     EXPECT_FALSE(compare_with_baseline(again, before).is_worse());
     const BaselineComparison comparison = compare_with_baseline(now, before);
     EXPECT_TRUE(mentions(comparison.worse, "intersector_error")) << to_text(comparison);
     EXPECT_TRUE(mentions(comparison.worse, "model_error")) << to_text(comparison);
+}
+
+TEST(Baseline, FindsTwiceTheWorkInRealTimes) {
+    if (std::getenv("STRANDLAB_LONG_TESTS") == nullptr)
+        GTEST_SKIP() << "rests on real times: only with STRANDLAB_LONG_TESTS";
+    const FewStrands strands(50'000);
+    const std::vector<Json> before{strands.row_with_times(1)}, again{strands.row_with_times(1)},
+        now{strands.row_with_times(2)};
+    const BaselineComparison same = compare_with_baseline(again, before);
+    EXPECT_EQ(same.times, 1u);
+    EXPECT_FALSE(same.is_worse()) << to_text(same);
+    const BaselineComparison slower = compare_with_baseline(now, before);
+    EXPECT_TRUE(mentions(slower.worse, "prhi: slower, ")) << to_text(slower);
 }
 
 }  // namespace

@@ -80,8 +80,7 @@ TEST_F(CaseImagesTest, ReferencesBecomeHits) {
 TEST_F(CaseImagesTest, WritesThreePictures) {
     if (!has_images()) GTEST_SKIP() << "the images module was not built";
     const TestFolder folder;
-    CasePicture picture{folder / ".", "../two hairs", "lss:segments=8", 4,          2,
-                        rays_,        hits_,          curves_,          reference_, {}};
+    CasePicture picture{folder / ".", "two_hairs", "lss_segments=8", 4, 2, rays_, hits_, curves_, reference_};
     const CaseImages images = write_case_images(picture);
     for (const std::string& path : {images.rendered, images.reference, images.error_map}) {
         const Image image = read_image(path);
@@ -98,6 +97,11 @@ TEST(FileName, IsOneAnywhere) {
     EXPECT_EQ(file_name_of("../a b/\nc:d=1,e"), "a_b_c_d=1_e");
     EXPECT_EQ(file_name_of("..."), "unnamed");
     EXPECT_EQ(file_name_of(std::string(500, 'x')).size(), 60u);
+    const std::vector<std::string> texts{
+        "a", "a b", "a-2", "a/b", "a", "a", std::string(70, 'x'), std::string(71, 'x')};
+    EXPECT_EQ(file_names_of(texts),
+              (std::vector<std::string>{"a", "a_b", "a-2", "a_b-2", "a-3", "a-4", std::string(60, 'x'),
+                                        std::string(60, 'x') + "-2"}));
 }
 
 }  // namespace

@@ -64,6 +64,15 @@ TEST(Axis, AnyValuesHaveAnAxis) {
     }
 }
 
+TEST(Axis, DoublingAxesHaveTicksAtPowersOfTwo) {
+    const LogAxis axis = LogAxis::doubling(1, 32, 0, 100);
+    EXPECT_DOUBLE_EQ(axis.at(1), 0);
+    EXPECT_DOUBLE_EQ(axis.at(32), 100);
+    EXPECT_DOUBLE_EQ(axis.at(2), 20);
+    EXPECT_EQ(labels(axis.ticks(7)), (std::vector<std::string>{"1", "2", "4", "8", "16", "32"}));
+    EXPECT_LE(LogAxis::doubling(1e-6, 1e6, 0, 100).ticks(7).size(), 7u);
+}
+
 TEST(Axis, LinearAxesHaveFewTicks) {
     const LinearAxis axis(2048, 0, 100);
     EXPECT_EQ(labels(axis.ticks()), (std::vector<std::string>{"0", "500", "1000", "1500", "2000"}));
@@ -95,6 +104,12 @@ TEST(Markup, TextIsNeverMarkup) {
     EXPECT_EQ(escape_markup(std::string("a\0b\x1B", 4)), "a" + unknown + "b" + unknown);
     EXPECT_EQ(escape_markup("\xE2\x82"), unknown + unknown);
     EXPECT_EQ(escape_script("{\"a\":\"</script><!--\"}"), "{\"a\":\"\\u003c/script>\\u003c!--\"}");
+}
+
+TEST(Markup, ScenesSetTheirParametersApart) {
+    EXPECT_EQ(scene_markup("bob,strands=9,points=3"), "bob <small>strands=9, points=3</small>");
+    EXPECT_EQ(scene_markup("<b>"), "&lt;b&gt;");
+    EXPECT_EQ(scene_markup("a,<b>"), "a <small>&lt;b&gt;</small>");
 }
 
 TEST(Markup, DataUrisAreBase64) {
@@ -246,6 +261,16 @@ TEST_F(ChartsTest, DistancesAndStressAreDrawnWhereRowsHaveThem) {
     ASSERT_NE(line, std::string::npos);
     const std::string data = chart.substr(line, chart.find("/>", line) - line);
     EXPECT_EQ(count(data, "L"), 1u) << data;  // two points
+    // A figure that is 0 has no place on the axis: words say so.
+    Json exact = to_json(result_row("rocaps", 1, 90, 0.3));
+    exact["distances"] = {{{"scale", 1}, {"flip", 0}}, {{"scale", 2}, {"flip", 0}}};
+    use({row, exact});
+    EXPECT_NE(distance_chart(this->data(), groups_[0], "flip", "FLIP")
+                  ->inside_page()
+                  .find("rocaps: 0 at every distance"),
+              std::string::npos);
+    use({exact});
+    EXPECT_FALSE(distance_chart(this->data(), groups_[0], "flip", "FLIP"));
     const Json cell{{"family", "grazing"},
                     {"primitive", "lss"},
                     {"device", "cpu-float"},

@@ -64,12 +64,31 @@ LogAxis::LogAxis(std::span<const double> values, double from, double to) : from_
     }
 }
 
+LogAxis LogAxis::doubling(double low, double high, double from, double to) {
+    LogAxis axis({}, from, to);
+    axis.low_ = low;
+    axis.high_ = high;
+    axis.doubling_ = true;
+    return axis;
+}
+
 double LogAxis::at(double value) const {
     const double low = std::log(low_);
     return from_ + (to_ - from_) * (std::log(value) - low) / (std::log(high_) - low);
 }
 
+std::vector<Tick> LogAxis::doubling_ticks(size_t most) const {
+    const int first = static_cast<int>(std::ceil(std::log2(low_) - 1e-9));
+    const int last = static_cast<int>(std::floor(std::log2(high_) + 1e-9));
+    const int step = (last - first) / static_cast<int>(most) + 1;
+    std::vector<Tick> ticks;
+    for (int power = first; power <= last; power += step)
+        ticks.push_back({std::exp2(power), tick_label(std::exp2(power))});
+    return ticks;
+}
+
 std::vector<Tick> LogAxis::ticks(size_t most) const {
+    if (doubling_) return doubling_ticks(most);
     std::vector<Tick> ticks;
     const int first = static_cast<int>(std::floor(std::log10(low_) + 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(high_) + 1e-9));

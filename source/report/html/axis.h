@@ -23,15 +23,22 @@ class LogAxis {
     /// another, and at least a factor of 10; 1 to 10 where there are none.
     LogAxis(std::span<const double> values, double from, double to);
 
+    /// From low to high, both positive, low < high, with a tick at every power of two.
+    static LogAxis doubling(double low, double high, double from, double to);
+
     double low() const { return low_; }
     double high() const { return high_; }
     /// The pixel of a positive value.
     double at(double value) const;
-    /// At most `most` (at least 3): 1, 2 and 5 of each decade, else powers of ten, else every n-th of them.
+    /// At most `most` (at least 3): 1, 2 and 5 of each decade, else powers of ten, else every n-th of them;
+    /// of a doubling axis powers of two, else every n-th of them.
     std::vector<Tick> ticks(size_t most) const;
 
   private:
+    std::vector<Tick> doubling_ticks(size_t most) const;
+
     double low_, high_, from_, to_;
+    bool doubling_ = false;
 };
 
 /// A linear axis from 0 at pixel `from` to at least `highest` at pixel `to`.

@@ -19,11 +19,12 @@ std::string inside_page(const std::optional<Drawing>& drawing) {
 std::string panel(const RowGroup& group, bool with_rays, const std::string& charts) {
     const std::string rays = with_rays ? escape_markup(group.rays) + ", " : "";
     return fmt::format(
-        "<article class=\"panel\" data-scene=\"{0}\"{1} data-device=\"{2}\"><h3>{0} <small>{3}{2}, {4} "
+        "<article class=\"panel\" data-scene=\"{0}\"{1} data-device=\"{2}\"><h3>{6} <small>{3}{2}, {4} "
         "traversal</small></h3>\n{5}</article>\n",
         escape_markup(group.scene),
         with_rays ? fmt::format(" data-rays=\"{}\"", escape_markup(group.rays)) : "",
-        escape_markup(group.device), rays, escape_markup(group.device_class), charts);
+        escape_markup(group.device), rays, escape_markup(group.device_class), charts,
+        scene_markup(group.scene));
 }
 
 std::string charts_in(const char* style, const std::string& charts) {

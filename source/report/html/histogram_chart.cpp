@@ -12,7 +12,7 @@
 namespace strandlab {
 namespace {
 
-constexpr double width = 390, left = 118, right = 382, top = 8, row_height = 26;
+constexpr double width = 390, left = 118, right = 366, top = 8, row_height = 26;
 /// More than this are too many to look at: then only those of rows on a front are drawn.
 constexpr size_t most_rows = 24;
 

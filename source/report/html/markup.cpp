@@ -52,6 +52,14 @@ std::string escape_markup(std::string_view text) {
     return result;
 }
 
+std::string scene_markup(std::string_view scene) {
+    const size_t comma = scene.find(',');
+    if (comma == std::string_view::npos) return escape_markup(scene);
+    std::string parameters;
+    for (const char c : scene.substr(comma + 1)) parameters.append(c == ',' ? ", " : std::string(1, c));
+    return escape_markup(scene.substr(0, comma)) + " <small>" + escape_markup(parameters) + "</small>";
+}
+
 std::string escape_script(std::string_view json) {
     std::string result;
     result.reserve(json.size());

@@ -10,6 +10,10 @@ namespace strandlab {
 /// and bytes that are not UTF-8 become U+FFFD.
 std::string escape_markup(std::string_view text);
 
+/// A scene's name with its parameters set apart: "bob,strands=9,points=3" is "bob <small>strands=9, points=3
+/// </small>", without a line break.
+std::string scene_markup(std::string_view scene);
+
 /// JSON as the content of a <script> element: nothing in it can end the element or open a comment.
 std::string escape_script(std::string_view json);
 

@@ -99,7 +99,7 @@ class ParetoChart {
         has_zero_ = any([](const Point& p) { return p.error == 0; });
         has_infinite_ = any([](const Point& p) { return std::isinf(p.error); });
         plot_left_ = left + margin + (has_zero_ ? band : 0);
-        plot_right_ = right - margin - (has_infinite_ ? wide_band + 4 : 0);
+        plot_right_ = right - margin - (has_infinite_ ? wide_band + 16 : 0);
         x_.emplace(errors, plot_left_, plot_right_);
         y_.emplace(costs, bottom - margin, top_ + margin);
         for (Point& point : points_) {

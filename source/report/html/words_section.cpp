@@ -77,7 +77,7 @@ std::string choice_cell(const PageData& data, const char* heading, const std::op
 std::string table_row(const PageData& data, const GroupChoices& choices) {
     const RowGroup& group = *choices.group;
     std::string html = fmt::format("<tr><th scope=\"row\">{}<small>{}<br>{}, {}</small></th>",
-                                   escape_markup(group.scene), escape_markup(group.rays),
+                                   scene_markup(group.scene), escape_markup(group.rays),
                                    escape_markup(group.device), escape_markup(group.device_class));
     const Choices& loose = choices.within[0];
     html += choice_cell(data, "Fastest within 0.1 r", loose.fastest, false, loose.as_fast);
