@@ -7,8 +7,8 @@
 
 // Lengths in metres, frequencies per metre. `rise` is 1 / the distance over which a displacement grows.
 struct StrandStyle {
-    real length;  // part that is kept of all strands
-    real cut;     // largest random shortening
+    real kept_length;  // part that is kept of all strands
+    real cut;          // largest random shortening
     real cut_noise;
     real cut_frequency;
     real clump;
@@ -200,7 +200,7 @@ FUNCTION StrandTraits strand_traits(StrandStyle style, uint seed, uint id, uint 
     PRECISE real shared_part = real(0.5) + real(0.5) * clamp(shared_cut.x, real(-1), real(1));
     PRECISE real shared_shortening = style.cut_noise * shared_part;
     PRECISE real rest = real(1) - shortening - shared_shortening;
-    PRECISE real kept = style.length * rest;
+    PRECISE real kept = style.kept_length * rest;
     traits.kept = max(kept, real(0.05));
     PRECISE real before_start = (real(0) - style.clump_start) * style.clump_rise;
     traits.clump_base = smooth_rise(before_start);

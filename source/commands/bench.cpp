@@ -5,6 +5,7 @@
 #include "commands/bench_options.h"
 #include "commands/bench_run.h"
 #include "commands/command.h"
+#include "commands/lod.h"
 #include "report/article_table.h"
 #include "report/baseline.h"
 #include "report/html/scale_chart.h"
@@ -21,8 +22,35 @@
 namespace strandlab {
 namespace {
 
+/// --lod: the sweep of levels of detail, with what of the options says how.
+int run_detail(const BenchOptions& options) {
+    if (options.models.models.empty())
+        fail(ExitCode::usage, "--lod: name a hair mesh, such as models/ringlets.hairmesh,strands=20000");
+    LodOptions lod;
+    lod.primitives = options.primitives;
+    lod.device = options.device;
+    lod.camera = options.rays.camera;
+    lod.json = options.json;
+    lod.charts = options.images;
+    lod.seed = options.rays.seed;
+    if (options.repeat) lod.repeat = *options.repeat;
+    for (const std::string& model : options.models.models) {
+        lod.model = model;
+        if (options.rays.resolution.empty()) {
+            run_lod(lod);
+            continue;
+        }
+        for (const Resolution& resolution : options.resolutions()) {
+            lod.resolution = to_string(resolution);
+            run_lod(lod);
+        }
+    }
+    return 0;
+}
+
 int run(BenchOptions& options) {
     options.check();
+    if (options.lod) return run_detail(options);
     if (options.explain || options.ablation) {
         print_ablation(options, options.ablation);
         return 0;
@@ -55,6 +83,7 @@ Command bench_command() {
         "primary --rays shadow\n"
         "  strandlab bench hair.tfx --resolution 1280x720,1920x1080 --json results.jsonl --images pictures\n"
         "  strandlab bench --preset full --json results.jsonl --resume --shard 2/8\n"
+        "  strandlab bench --lod models/ringlets.hairmesh,strands=20000 --images charts --json detail.jsonl\n"
         "  strandlab bench --json new.jsonl --baseline old.jsonl\n" +
             primitive_help(),
         [](CLI::App& app) -> RunCommand {

@@ -89,6 +89,10 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_flag("--ablation", ablation,
                  "only measure what each of that saves, and that answers stay the same");
     app.add_flag(
+        "--lod", lod,
+        "only sweep levels of detail of the hair meshes against distance, 1x to 32x, as the command lod: "
+        "error, bytes and times; --images: the folder for a chart of every primitive");
+    app.add_flag(
         "--profile", profile,
         "also count what each trace takes (leaves, iterations, hits) in an instrumented run of its own, "
         "and measure the floors of its traversal");

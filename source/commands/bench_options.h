@@ -34,6 +34,7 @@ struct BenchOptions {
     bool no_embree = false, no_compaction = false, no_normals = false, low_memory = false;
     std::vector<std::string> no_skips;
     bool explain = false, ablation = false, profile = false;
+    bool lod = false;
 
     void add_to(CLI::App& app);
     bool has_error_rays() const;  // --error-rays was given

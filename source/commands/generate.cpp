@@ -2,8 +2,10 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/sine.h"
+#include "base/stopwatch.h"
 #include "commands/command.h"
 #include "commands/usage_error.h"
+#include "gpu/hair_mesh/grow_on_device.h"
 #include "strands/generators.h"
 #include "strands/hair_mesh/grow.h"
 #include "strands/hair_mesh/model.h"
@@ -12,14 +14,13 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 
 namespace strandlab {
 namespace {
 
 struct Options {
-    std::string model, output, strands, points, seed, lod;
+    std::string model, output, strands, points, seed, lod, device;
     std::vector<std::string> style;
     double distance = 0, fov = 45, height = 1080, factor = 0.05;
     WriteOptions write;
@@ -44,9 +45,7 @@ std::string whole_spec(const Options& options) {
 
 /// Adds the level of detail for a camera at options.distance, and says what it is good for.
 std::string with_detail(const std::string& spec, const Options& options) {
-    const HairMeshSpec parts = parse_hair_mesh_spec(spec);
-    HairMesh mesh = read_hair_mesh(ByteSource::from_file(parts.file));
-    mesh.style.set_all(parts.file, hair_mesh_parameters(), parts.parameters);
+    const HairMesh mesh = load_styled_mesh(spec);
     const double lod =
         detail_at(bundle_size(mesh), options.distance, options.fov, options.height, options.factor);
     const SinCos half = sin_cos(options.fov * (3.14159265358979323846 / 360));
@@ -63,6 +62,20 @@ std::string with_detail(const std::string& spec, const Options& options) {
     return fmt::format("{},lod={:.9g}", spec, lod);
 }
 
+/// Grows the strands on a device, and says what that took.
+Curves grown_on(const std::string& name, const std::string& spec, const Options& options) {
+    if (!is_hair_mesh_spec(spec))
+        fail(ExitCode::usage, "--device {}: only hair meshes grow on devices, {} does not", name,
+             options.model);
+    const Device device({.selector = name});
+    const HairMesh mesh = load_styled_mesh(spec);
+    const DeviceCurves grown = grow_on_device(device, mesh, mesh.style);
+    inform("{}: {} bytes uploaded in {:.1f} ms, {} curves ({} bytes) grown in {:.1f} ms of device time",
+           device.info().name, grown.table_bytes, grown.upload_ms, grown.curve_count(), grown.records.size(),
+           grown.device_ms);
+    return grown.download();
+}
+
 int run(const Options& options) {
     std::string spec = whole_spec(options);
     if (options.distance > 0) {
@@ -70,13 +83,14 @@ int run(const Options& options) {
             fail(ExitCode::usage, "--distance goes with hair meshes, not with {}", spec);
         spec = with_detail(spec, options);
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     ImportReport report;
-    const Curves curves = load_model(spec, {}, report);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const Curves curves =
+        options.device.empty() ? load_model(spec, {}, report) : grown_on(options.device, spec, options);
+    const double seconds = stopwatch.milliseconds() / 1000;
     write_model(options.output, curves, options.write);
     inform("{}: {} strands, {} curves, generated in {:.2f} s", options.output, curves.strands.size(),
-           curves.curves.size(), seconds.count());
+           curves.curves.size(), seconds);
     return 0;
 }
 
@@ -94,7 +108,8 @@ Command generate_command() {
         "  strandlab generate models/bob.hairmesh --strands 10000 --points 33 -o bob.hair\n"
         "  strandlab generate models/wavy.hairmesh --style wave=0.01 --style curl=0.003 -o wavy.npy "
         "--write-strands strands.npy\n"
-        "  strandlab generate models/ringlets.hairmesh --distance 4 -o far.npy   # 4 m from the camera\n" +
+        "  strandlab generate models/ringlets.hairmesh --distance 4 -o far.npy   # 4 m from the camera\n"
+        "  strandlab generate models/ringlets.hairmesh --device llvmpipe -o same.npy\n" +
         parameter_help();
     return {"generate", "grow the strands of a hair mesh, write them as .hair or .npy", examples,
             [](CLI::App& app) -> RunCommand {
@@ -122,6 +137,9 @@ Command generate_command() {
                                "share of the strands that a bundle keeps for every pixel of its size")
                     ->check(CLI::Range(1e-6, 1e6))
                     ->capture_default_str();
+                app.add_option("--device", options->device,
+                               "grow the strands on this device (as `info` lists them) instead of the host: "
+                               "the same strands");
                 app.add_option("--points-per-curve", options->write.points_per_curve,
                                ".hair: points that each curve adds")
                     ->capture_default_str()

@@ -1,8 +1,9 @@
 // strandlab lod: level of detail against distance, on every primitive: error, bytes, time.
+#include "commands/lod.h"
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/ray_arguments.h"
 #include "commands/usage_error.h"
@@ -25,15 +26,6 @@
 
 namespace strandlab {
 namespace {
-
-struct Options {
-    std::string model, resolution = "256x256", camera, json, charts;
-    PrimitiveArguments primitives;
-    DeviceArguments device;
-    double detail = 1, farthest = 32;
-    uint32_t samples = 4, repeat = 3;
-    uint64_t seed = 1;
-};
 
 /// One level of detail on one primitive.
 struct Measured {
@@ -65,7 +57,7 @@ Measured measure(const TraceDevice& device, const Scene& scene, const PrimitiveC
     return measured;
 }
 
-nlohmann::json row_of(const Options& options, const TraceDevice& device, const PrimitiveChoice& choice,
+nlohmann::json row_of(const LodOptions& options, const TraceDevice& device, const PrimitiveChoice& choice,
                       double times, double lod, const Measured& full, const Measured& less,
                       const DetailError& error) {
     return {{"model", options.model},
@@ -145,7 +137,9 @@ Scene scene_with(const std::string& model, double lod) {
     return load_scene(lod < 1 ? fmt::format("{},lod={:.9g}", model, lod) : model, {});
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run_lod(const LodOptions& options) {
     if (!is_hair_mesh_spec(options.model))
         fail(ExitCode::usage, "lod {}: only hair meshes (FILE.hairmesh) have levels of detail",
              options.model);
@@ -160,7 +154,6 @@ int run(const Options& options) {
     const glm::dvec3 to_light = light_direction(camera);
     const std::string name = hair_mesh_name(parse_hair_mesh_spec(options.model).file);
     Table table = empty_table();
-    std::string rows;
     std::vector<std::vector<LodPoint>> charts(choices.size());
     for (double times = 1; times <= options.farthest; times *= 2) {
         const double lod = std::min(1.0, options.detail / times);
@@ -176,7 +169,8 @@ int run(const Options& options) {
             const DetailError error =
                 compare_detail(full.primary, less.primary, view.samples, full.shadow, less.shadow);
             table.add_row(cells(choices[c], times, lod, full, less, error));
-            rows += row_of(options, device, choices[c], times, lod, full, less, error).dump() + "\n";
+            const nlohmann::json row = row_of(options, device, choices[c], times, lod, full, less, error);
+            if (!options.json.empty()) append_line(options.json, row.dump());
             charts[c].push_back({times, lod, error.coverage_bias, error.coverage_rms,
                                  error.transmittance_bias, ratio(double(less.bytes), double(full.bytes)),
                                  ratio(less.build_ms, full.build_ms), ratio(less.trace_ms, full.trace_ms)});
@@ -187,7 +181,6 @@ int run(const Options& options) {
     fmt::print("{}, {}, {} rays at every distance\n\n{}", device.name(), options.model,
                grouped(uint64_t(size.width) * size.height * options.samples),
                table.to_string(standard_output_style()));
-    if (!options.json.empty()) write_file(options.json, rows);
     for (size_t c = 0; c < choices.size() && !options.charts.empty(); ++c) {
         const std::string path =
             (std::filesystem::path(options.charts) / chart_name(name, choices[c].label())).string();
@@ -199,8 +192,6 @@ int run(const Options& options) {
     return 0;
 }
 
-}  // namespace
-
 Command lod_command() {
     return {"lod", "level of detail of a hair mesh against distance: error, bytes, time",
             "  strandlab lod models/ringlets.hairmesh,strands=20000\n"
@@ -210,7 +201,7 @@ Command lod_command() {
             "1.\n" +
                 primitive_help(),
             [](CLI::App& app) -> RunCommand {
-                auto options = std::make_shared<Options>();
+                auto options = std::make_shared<LodOptions>();
                 app.add_option("MODEL", options->model, "FILE.hairmesh[,key=value,...]")->required();
                 options->primitives.add_to(app, true);
                 options->device.add_to(app);
@@ -233,9 +224,9 @@ Command lod_command() {
                 app.add_option("--seed", options->seed, "of the places in a pixel")
                     ->check(whole_number(0, ~uint64_t(0)))
                     ->capture_default_str();
-                app.add_option("--json", options->json, "file for one row of JSON a line");
+                app.add_option("--json", options->json, "append rows to this file, one JSON object a line");
                 app.add_option("--charts", options->charts, "folder for one SVG chart for each primitive");
-                return [options] { return run(*options); };
+                return [options] { return run_lod(*options); };
             }};
 }
 

@@ -71,5 +71,31 @@ TEST_F(HairMeshTest, LodSweepsDistances) {
     expect_failure(run({"lod", "generate:head"}), 2, {"generate:head", "FILE.hairmesh"});
 }
 
+/// One sweep under two names; rows are appended.
+TEST_F(HairMeshTest, BenchSweepsThemToo) {
+    for (int i = 0; i < 2; ++i)
+        expect_success(run({"bench", "--lod", model("fur") + ",strands=300", "--device", "cpu-float",
+                            "--primitive", "rocaps", "--resolution", "16x16", "--repeat", "1", "--json",
+                            "rows.jsonl", "--images", "."}));
+    const std::string rows = read("rows.jsonl");
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 12);
+    EXPECT_TRUE(contains(rows, "\"distance\":32.0")) << rows;
+    EXPECT_TRUE(contains(read("lod_fur_rocaps.svg"), "</svg>"));
+    expect_failure(run({"bench", "--lod"}), 2, {"--lod", "hair mesh"});
+    expect_failure(run({"bench", "--lod", "generate:head"}), 2, {"generate:head", "FILE.hairmesh"});
+}
+
+TEST_F(HairMeshTest, GenerateOnADeviceWritesTheSameFile) {
+    SKIP_WITHOUT_DEVICE();
+    const Outcome there = run({"generate", model("wavy"), "--strands", "40", "--points", "9", "--device",
+                               "llvmpipe", "-o", "device.npy"});
+    expect_success(there);
+    EXPECT_TRUE(contains(there.log, "bytes uploaded")) << there.log;
+    expect_success(run({"generate", model("wavy"), "--strands", "40", "--points", "9", "-o", "host.npy"}));
+    EXPECT_EQ(read("device.npy"), read("host.npy"));
+    expect_failure(run({"generate", "generate:head", "--device", "llvmpipe", "-o", "a.npy"}), 2,
+                   {"--device llvmpipe", "only hair meshes"});
+}
+
 }  // namespace
 }  // namespace strandlab::testing_tools

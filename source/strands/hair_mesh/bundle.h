@@ -34,15 +34,6 @@ struct ColumnNumbers {
     }
 };
 
-/// Weights of a face's corners at a root sample.
-template <class Real>
-glm::vec<4, Real> corner_weights(const HairMeshFace& face, const glm::vec2& sample) {
-    const Real a = sample.x, b = sample.y;
-    if (face.is_triangle()) return {Real(1) - a - b, a, b, Real(0)};
-    const Real c = Real(1) - a, d = Real(1) - b;
-    return {c * d, a * d, a * b, c * b};
-}
-
 /// The columns of a bundle, blended for one strand.
 template <class Real>
 class BlendedColumn {

@@ -1,66 +1,17 @@
 #include "strands/hair_mesh/grow.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
-#include "strands/hair_mesh/bundle.h"
 #include "strands/hair_mesh/curve_writer.h"
-#include "strands/hair_mesh/parameters.h"
+#include "strands/hair_mesh/recipe.h"
 #include "strands/hair_mesh/root_samples.h"
 
 #include <algorithm>
 #include <limits>
-#include <type_traits>
 
 namespace strandlab {
 namespace {
 
 constexpr uint32_t strands_per_block = 256;
-constexpr uint64_t largest_curve_count = std::numeric_limits<uint32_t>::max();
-
-/// What all strands share.
-template <class Real>
-struct Recipe {
-    const HairMesh& mesh;
-    ColumnNumbers<Real> columns;
-    typename kernels::HairStrandKernel<Real>::StrandStyle style;
-    uint32_t seed, clumps;
-    PointLevel level;
-    bool styled;
-    glm::vec2 radii;  // root, tip
-    std::vector<BundleCount> counts;
-
-    uint32_t curves_per_strand() const { return styled ? level.pieces : columns.layers; }
-};
-
-template <class Real>
-auto style_of(const Parameters& parameters) {
-    if constexpr (std::is_same_v<Real, float>)
-        return strand_style(parameters);
-    else
-        return to_double(strand_style(parameters));
-}
-
-template <class Real>
-Recipe<Real> make_recipe(const HairMesh& mesh, const Parameters& parameters) {
-    const LevelOfDetail lod = level_of_detail(parameters);
-    const uint32_t points = parameters.integer("points"), seed = parameters.integer("seed");
-    if (points == 1)
-        fail(ExitCode::usage, "{}: points=1 is not 0 (unstyled) or a whole number from 2 to 4097", mesh.name);
-    const double thickness = parameters.number("thickness");
-    const glm::vec2 radii(thickness * parameters.number("root_radius"),
-                          thickness * parameters.number("tip_radius"));
-    Recipe<Real> recipe{mesh,
-                        ColumnNumbers<Real>(mesh, make_columns(mesh)),
-                        style_of<Real>(parameters),
-                        seed,
-                        parameters.integer("clumps"),
-                        points == 0 ? PointLevel{} : point_level(points - 1, lod),
-                        points != 0,
-                        radii,
-                        bundle_counts(mesh, parameters.integer("strands"), seed, lod.strands)};
-    return recipe;
-}
-
 /// Strands [first, last) of a face, whose curves begin at first_curve.
 struct Block {
     uint32_t face, first, last;
@@ -89,7 +40,7 @@ class BundleGrower {
     using Vec4 = glm::vec<4, Real>;
     using RealCurve = std::array<Vec4, 4>;
 
-    BundleGrower(const Recipe<Real>& recipe, uint32_t face)
+    BundleGrower(const GrowthRecipe<Real>& recipe, uint32_t face)
         : recipe_(recipe),
           face_(recipe.mesh.faces[face]),
           face_id_(Kernel::combine(recipe.seed, face)),
@@ -97,41 +48,39 @@ class BundleGrower {
           radii_(recipe.radii * recipe.counts[face].thickness) {
         if (!recipe.styled) return;
         points_.resize(recipe.level.pieces + 1);
-        if (!(recipe.style.clump > 0) && !shares_by_clump()) return;
+        if (!recipe.has_clumps()) return;
         centres_.resize(recipe.clumps);
         middles_.resize(recipe.clumps);
         for (uint32_t i = 0; i < recipe.clumps; ++i) {
             centres_[i] = sample(i);
-            middles_[i].blend_controls(recipe.columns, face_, corner_weights<Real>(face_, centres_[i]));
+            middles_[i].blend_controls(recipe.columns, face_, corner_weights(centres_[i]));
         }
     }
 
     void grow(uint32_t index, RealCurve* out) {
         const glm::vec2 root = sample(index);
-        const Vec4 weights = corner_weights<Real>(face_, root);
+        const Vec4 weights = corner_weights(root);
         if (!recipe_.styled) {
             own_.blend_controls(recipe_.columns, face_, weights);
             return write_layers(out);
         }
         own_.blend_all_of(recipe_.columns, face_, weights);
         style_points(index, nearest_centre(root));
-        write_points(points_, recipe_.level.morph, out, scratch_);
+        write_points(points_, recipe_.level.morph, out);
     }
 
   private:
     glm::vec2 sample(uint32_t index) const { return face_sample(face_.is_triangle(), symmetry_, index); }
 
-    /// Whether strands of a clump have something in common besides their middle.
-    bool shares_by_clump() const {
-        return recipe_.style.curl > 0 || recipe_.style.wave > 0 || recipe_.style.kink > 0;
+    Vec4 corner_weights(const glm::vec2& place) const {
+        return Kernel::corner_weights(Vec2(place), face_.is_triangle());
     }
 
     uint32_t nearest_centre(const glm::vec2& root) const {
         uint32_t best = 0;
         float least = std::numeric_limits<float>::infinity();
         for (uint32_t i = 0; i < centres_.size(); ++i) {
-            const glm::vec2 d = centres_[i] - root;
-            const float squared = d.x * d.x + d.y * d.y;
+            const float squared = HairStrandKernel::squared_distance(centres_[i], root);
             if (!(squared < least)) continue;
             least = squared;
             best = i;
@@ -183,7 +132,7 @@ class BundleGrower {
             }
     }
 
-    const Recipe<Real>& recipe_;
+    const GrowthRecipe<Real>& recipe_;
     const HairMeshFace& face_;
     uint32_t face_id_, symmetry_;
     glm::vec2 radii_;
@@ -191,21 +140,16 @@ class BundleGrower {
     std::vector<BlendedColumn<Real>> middles_;
     BlendedColumn<Real> own_;
     std::vector<Vec4> points_;
-    std::vector<RealCurve> scratch_;
 };
 
 }  // namespace
 
 template <class Real>
 GrownStrands<Real> grow_hair_mesh(const HairMesh& mesh, const Parameters& parameters) {
-    const Recipe<Real> recipe = make_recipe<Real>(mesh, parameters);
+    const GrowthRecipe<Real> recipe = make_recipe<Real>(mesh, parameters);
     const std::vector<Block> blocks = make_blocks(recipe.counts);
-    uint64_t strands = 0;
-    for (const BundleCount& count : recipe.counts) strands += count.kept;
+    const uint64_t strands = recipe.strand_count();
     const uint32_t per_strand = recipe.curves_per_strand();
-    if (strands * per_strand >= largest_curve_count)
-        fail(ExitCode::usage, "{}: {} strands of {} curves each are above the limit of 2^32 - 1 curves",
-             mesh.name, strands, per_strand);
     GrownStrands<Real> grown;
     grown.curves.resize(strands * per_strand);
     grown.strands.resize(strands);

@@ -37,11 +37,17 @@ std::string hair_mesh_name(std::string_view model) {
     return spec.parameters.empty() ? name : name + "," + spec.parameters;
 }
 
-Curves load_hair_mesh_model(std::string_view model) {
+HairMesh load_styled_mesh(std::string_view model) {
     const HairMeshSpec spec = parse_hair_mesh_spec(model);
     HairMesh mesh = read_hair_mesh(ByteSource::from_file(spec.file));
     mesh.style.set_all(spec.file, hair_mesh_parameters(), spec.parameters);
-    if (const auto line = divergence(mesh, make_columns(mesh))) warn("{}: {}", spec.file, *line);
+    return mesh;
+}
+
+Curves load_hair_mesh_model(std::string_view model) {
+    const HairMesh mesh = load_styled_mesh(model);
+    if (const auto line = divergence(mesh, make_columns(mesh)))
+        warn("{}: {}", parse_hair_mesh_spec(model).file, *line);
     return grow_hair_mesh(mesh, mesh.style);
 }
 

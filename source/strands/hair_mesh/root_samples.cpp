@@ -1,6 +1,7 @@
 #include "strands/hair_mesh/root_samples.h"
 
 #include "base/random.h"
+#include "strands/hair_mesh/strand_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,25 +151,18 @@ const std::vector<glm::vec2>& triangle_samples() {
     return samples;
 }
 
+glm::vec2 sample_shift(bool is_triangle, uint32_t round) {
+    if (round == 0) return glm::vec2(0);
+    Random shift(2, is_triangle ? 2 : 1, round);
+    const auto x = static_cast<float>(shift.uniform());
+    return {x, static_cast<float>(shift.uniform())};
+}
+
 glm::vec2 face_sample(bool is_triangle, uint32_t key, uint32_t index) {
     const std::vector<glm::vec2>& set = is_triangle ? triangle_samples() : square_samples();
-    glm::vec2 p = set[index % set.size()];
-    if (const auto round = static_cast<uint32_t>(index / set.size()); round > 0) {
-        Random shift(2, is_triangle ? 2 : 1, round);
-        p.x += static_cast<float>(shift.uniform());
-        p.y += static_cast<float>(shift.uniform());
-        p -= glm::vec2(p.x >= 1 ? 1 : 0, p.y >= 1 ? 1 : 0);
-        if (is_triangle && p.x + p.y > 1) p = 1.0f - p;
-    }
-    if (is_triangle) {
-        const float b[3] = {1 - p.x - p.y, p.x, p.y};
-        const uint32_t turn = key % 3;
-        return key % 6 < 3 ? glm::vec2(b[(turn + 1) % 3], b[(turn + 2) % 3])
-                           : glm::vec2(b[(turn + 2) % 3], b[(turn + 1) % 3]);
-    }
-    if (key & 1) p.x = 1 - p.x;
-    if (key & 2) p.y = 1 - p.y;
-    return key & 4 ? glm::vec2(p.y, p.x) : p;
+    const auto round = static_cast<uint32_t>(index / set.size());
+    return HairStrandKernel::placed_sample(set[index % set.size()], sample_shift(is_triangle, round),
+                                           round == 0, is_triangle, key);
 }
 
 }  // namespace strandlab

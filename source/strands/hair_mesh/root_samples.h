@@ -20,6 +20,9 @@ const std::vector<glm::vec2>& triangle_samples();
 /// Makes such a set of count points out of five times as many candidates.
 std::vector<glm::vec2> eliminate_samples(size_t count, bool on_triangle, uint64_t seed);
 
+/// How far a set is shifted on the torus where it is repeated: 0 in round 0.
+glm::vec2 sample_shift(bool is_triangle, uint32_t round);
+
 /// Root number index on a face: every face uses the set under a symmetry of its own (8 of the square, 6 of
 /// the triangle), chosen by key. Beyond the set's end it is repeated, shifted on the torus.
 glm::vec2 face_sample(bool is_triangle, uint32_t key, uint32_t index);

@@ -20,7 +20,7 @@ StrandStyle strand_style(const Parameters& parameters) {
     const auto direction = [&](const char* key) { return sin_cos(parameters.number(key) * (tau / 360)); };
     const auto rise = [&](const char* key) { return rise_over(parameters.number(key)); };
     StrandStyle s{};
-    s.length = number("length");
+    s.kept_length = number("length");
     s.cut = number("cut");
     s.cut_noise = number("cut_noise");
     s.cut_frequency = number("cut_frequency");

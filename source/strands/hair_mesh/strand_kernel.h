@@ -11,6 +11,8 @@ template <class real>
 struct HairStrandKernel {
     STRANDLAB_KERNEL_TYPES
 #include "shaders/strands/hair_strand.h"
+#include "shaders/strands/root_place.h"
+#include "shaders/strands/strand_curve.h"
 };
 
 }  // namespace kernels
