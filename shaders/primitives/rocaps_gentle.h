@@ -44,12 +44,14 @@ FUNCTION bool gentle_entry(FrameCubic c, real a, real b, real z_min, bool starts
     real4 d2 = (c.p3 - c.p2) * real(3);
     // Coefficients of powers of u: the curve's start is near the ray, as all of it.
     real4 k2 = d1 - d0;
-    real4 k3 = ((d2 - d1) - (d1 - d0)) * real(1.0 / 3.0);
+    real4 third_difference = (d2 - d1) - (d1 - d0);
+    // Precise, or devices move the factor elsewhere, and rays past the silhouette tell.
+    PRECISE real4 k3 = third_difference * real(1.0 / 3.0);
     for (int i = 0; i < 8; ++i) {
         COUNT_ITERATION
         real4 p = c.p0 + (d0 + (k2 + k3 * u) * u) * u;
-        real4 d = d0 + (k2 * real(2) + k3 * (real(3) * u)) * u;
-        real4 dd = k2 * real(2) + k3 * (real(6) * u);
+        real4 d = d0 + (k2 * real(2) + third_difference * u) * u;
+        real4 dd = (k2 + third_difference * u) * real(2);
         real inside = p.w * p.w - (p.x * p.x + p.y * p.y);
         real wanted = u + verified_step(p, d, dd, inside);
         real next = clamp(wanted, a, b);
