@@ -77,7 +77,10 @@ void BenchOptions::add_to(CLI::App& app) {
         "--save-rays", save_rays,
         "folder for the rays of every set, MODEL.SET.npy (MODEL.WxH.SET.npy where there are several "
         "resolutions), for trace and other programs");
-    app.add_option("--images", images, "folder for a picture of every case with primary rays");
+    app.add_option(
+        "--images", images,
+        "folder for a picture of every case with primary rays; pictures from 1 to 32 times the distance "
+        "are measured too");
     app.add_option("--scale-chart", scale_chart, "cost against the number of curves, as an SVG file");
     app.add_option("--leaf-order", leaf_order, "order of leaves in builds: auto, file, median")
         ->capture_default_str();
@@ -186,6 +189,7 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
     for (const std::string& skip : options.no_skips) command.add("--no-skip", skip);
     command.flag("--no-normals", options.no_normals);
     command.flag("--no-embree", row.primitive.name != "embree");
+    if (!row.images.rendered.empty()) command.add("--images", options.images);
     return command.text();
 }
 

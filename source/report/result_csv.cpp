@@ -90,6 +90,7 @@ Json full_row() {
     row.geometry_ms = 0;
     row.cost.emplace();
     row.profile.emplace();
+    row.profile->shaders.emplace_back();
     row.profile->work = row.profile->work_at_hit = WorkCounts{.rays = 1, .leaves = 1};
     Comparison comparison;
     for (Tally* tally : {&comparison.decisive, &comparison.all, &comparison.on_cap, &comparison.inside,

@@ -109,7 +109,7 @@ TEST_F(BenchTest, KeepsItsCacheWhereItShould) {
     EXPECT_EQ(rows("damaged"), rows("fresh"));
 }
 
-TEST_F(BenchTest, LeavesWholeLinesWhenItIsKilled) {
+TEST_F(BenchTest, LosesAtMostALineWhenItIsKilled) {
     const pid_t process =
         start({"bench", "generate:fur,strands=60", "generate:fur,strands=61", "generate:fur,strands=62",
                "generate:fur,strands=63", "--device", "cpu-float", "--resolution", "96x54", "--repeat", "50",
@@ -123,9 +123,14 @@ TEST_F(BenchTest, LeavesWholeLinesWhenItIsKilled) {
     ASSERT_FALSE(ended) << read("stderr.txt");
     ::kill(process, SIGKILL);
     ::waitpid(process, nullptr, 0);
-    EXPECT_EQ(read("r.jsonl").back(), '\n');
-    for (const std::string& line : lines("r.jsonl")) EXPECT_TRUE(Json::accept(line)) << line;
+    // The kernel itself may stop a write that is killed between two pages: only the last line may be torn,
+    // and the next run cuts it off.
+    std::vector<std::string> left = lines("r.jsonl");
+    if (read("r.jsonl").back() != '\n') left.pop_back();
+    EXPECT_FALSE(left.empty());
+    for (const std::string& line : left) EXPECT_TRUE(Json::accept(line)) << line;
     expect_success(bench({"--json", "r.jsonl", "--primitive", "lss"}));
+    EXPECT_EQ(read("r.jsonl").back(), '\n');
     for (const std::string& line : lines("r.jsonl")) EXPECT_TRUE(Json::accept(line)) << line;
 }
 

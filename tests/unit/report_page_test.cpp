@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -127,6 +128,33 @@ TEST(ReportPage, TheTableHasEveryRow) {
         }
     }
     EXPECT_EQ(table["fronts"][0].get<int>() & 1, 1);
+}
+
+TEST(ReportPage, TheTableHasWhatSomeRowsHave) {
+    const auto has_column = [](const Json& table, const char* heading) {
+        return std::any_of(table["columns"].begin(), table["columns"].end(),
+                           [&](const Json& column) { return column["heading"] == heading; });
+    };
+    const Json without = table_of(report_page(some_results(), {}));
+    MergedResults results = some_results();
+    results.rows[1]["profile"] = {{"trace_ms", 4}, {"floor_ms", 1}, {"work", {{"leaves_per_ray", 7.5}}}};
+    results.rows[2]["distances"] = {{{"scale", 2}, {"flip", 0.5}}, {{"scale", 1}, {"flip", 0.25}}};
+    const Json table = table_of(report_page(results, {}));
+    for (const char* heading : {"leaves", "floor", "FLIP"}) {
+        EXPECT_FALSE(has_column(without, heading)) << heading;
+        EXPECT_TRUE(has_column(table, heading)) << heading;
+    }
+    for (const Json& column : table["columns"]) {
+        if (column["heading"] == "leaves") {
+            EXPECT_EQ(column["values"], Json({nullptr, 7.5, nullptr}));
+        }
+        if (column["heading"] == "floor") {
+            EXPECT_EQ(column["values"], Json({nullptr, 0.25, nullptr}));
+        }
+        if (column["heading"] == "FLIP") {
+            EXPECT_EQ(column["values"], Json({nullptr, nullptr, 0.25}));
+        }
+    }
 }
 
 TEST(ReportPage, PicturesAreInsideAndOnlyPictures) {

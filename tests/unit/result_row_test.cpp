@@ -185,6 +185,21 @@ std::string csv_value(const ResultRow& row, std::string_view column) {
     return fields[static_cast<size_t>(found - csv_columns().begin())];
 }
 
+TEST(ResultCsv, EveryFieldIsDescribed) {
+    std::ostringstream text;
+    text << std::ifstream(STRANDLAB_MODELS "/../source/report/README.md").rdbuf();
+    ASSERT_FALSE(text.str().empty());
+    for (const std::string& column : csv_columns()) {
+        if (column.starts_with("profile.") || column.starts_with("settings.")) continue;  // in their headers
+        for (size_t begin = 0; begin <= column.size();) {
+            const size_t end = std::min(column.find('.', begin), column.size());
+            EXPECT_NE(text.str().find("`" + column.substr(begin, end - begin) + "`"), std::string::npos)
+                << column;
+            begin = end + 1;
+        }
+    }
+}
+
 TEST(ResultCsv, FiguresAtDistancesAreLists) {
     ResultRow row;
     row.distances.resize(3);
@@ -197,6 +212,8 @@ TEST(ResultCsv, FiguresAtDistancesAreLists) {
     EXPECT_EQ(csv_value(row, "distances.flip"), "0.0;0.25;0.5");
     EXPECT_EQ(csv_value(row, "distances.depth_bias"), ";-0.5;");
     EXPECT_EQ(csv_value(ResultRow{}, "distances.flip"), "");
+    row.profile.emplace().shaders = {{"closest hit", "registers", "32"}, {"intersection", "registers", "48"}};
+    EXPECT_EQ(csv_value(row, "profile.shaders.value"), "32;48");
     EXPECT_EQ(csv_value(ResultRow{}, "seed"), csv_value(row, "seed"));
 }
 

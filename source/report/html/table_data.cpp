@@ -140,6 +140,19 @@ std::vector<Column> columns() {
          "bias: how much more or less the hair covers than the curves do, in that picture",
          {},
          [](const Json& row) { return 100 * nearest_picture(row, "coverage_bias"); }},
+        number_column("leaves", "/ray", "profile.work.leaves_per_ray", 1,
+                      "that a ray enters, counted by instrumented shaders in a trace of its own"),
+        number_column("false entries", "%", "profile.work.false_entry_share", 100,
+                      "of these, without a hit there that is nearer than the one before"),
+        number_column("iterations", "/ray", "profile.work.iterations_per_ray", 1,
+                      "of the intersector's searches: cones or capsules tried, steps of refinement"),
+        {"floor",
+         "",
+         "time with an intersector that always misses, relative to the trace: what of it is traversal",
+         {},
+         [](const Json& row) {
+             return number_or_nan(row, "profile.floor_ms") / number_or_nan(row, "profile.trace_ms");
+         }},
         number_column("undecided", "%", "intersector_error.undecided_share", 100,
                       "rays whose answer hangs on a thousandth of a radius"),
     };
