@@ -11,16 +11,18 @@
 #include "strands/hair_mesh/model.h"
 #include "strands/hair_mesh/parameters.h"
 #include "strands/models.h"
+#include "trace/grown_model.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 namespace strandlab {
 namespace {
 
 struct Options {
-    std::string model, output, strands, points, seed, lod, device;
+    std::string model, output, strands, points, seed, lod, device, primitive;
     std::vector<std::string> style;
     double distance = 0, fov = 45, height = 1080, factor = 0.05;
     WriteOptions write;
@@ -62,18 +64,48 @@ std::string with_detail(const std::string& spec, const Options& options) {
     return fmt::format("{},lod={:.9g}", spec, lod);
 }
 
-/// Grows the strands on a device, and says what that took.
-Curves grown_on(const std::string& name, const std::string& spec, const Options& options) {
+/// What the options ask a device for.
+DeviceCurves grown_on(const Device& device, const std::string& spec, const Options& options) {
     if (!is_hair_mesh_spec(spec))
-        fail(ExitCode::usage, "--device {}: only hair meshes grow on devices, {} does not", name,
+        fail(ExitCode::usage, "--device {}: only hair meshes grow on devices, {} does not", options.device,
              options.model);
-    const Device device({.selector = name});
     const HairMesh mesh = load_styled_mesh(spec);
-    const DeviceCurves grown = grow_on_device(device, mesh, mesh.style);
+    DeviceCurves grown = grow_on_device(device, mesh, mesh.style);
     inform("{}: {} bytes uploaded in {:.1f} ms, {} curves ({} bytes) grown in {:.1f} ms of device time",
            device.info().name, grown.table_bytes, grown.upload_ms, grown.curve_count(), grown.records.size(),
            grown.device_ms);
-    return grown.download();
+    return grown;
+}
+
+/// Makes an acceleration structure of curves that are on the device, and says what that took.
+void build_there(const Device& device, DeviceCurves curves, const Options& options) {
+    const PrimitiveChoice choice = parse_primitive(options.primitive);
+    GrownModel grown = grown_model(device, std::move(curves), choice, 1.0f);
+    const SceneInstance instance;
+    const GpuScene scene(device, *choice.primitive, {std::move(grown.model)}, {&instance, 1}, {});
+    const SceneCost& cost = scene.cost();
+    inform(
+        "{}: {} leaves, boxes made in {:.1f} ms, built in {:.1f} ms, compacted in {:.1f} ms of device time; "
+        "{} bytes "
+        "of structure and {} of records; no curve or box was copied",
+        choice.label(), cost.leaf_count, grown.boxes_ms, cost.builds.build_ms, cost.builds.compaction_ms,
+        cost.builds.kept_bytes, cost.record_bytes);
+}
+
+/// Strands on the host: the mesh's bytes against theirs.
+void report_growth(const std::string& spec, const Curves& curves, double seconds) {
+    size_t points = 0;
+    for (const StrandRange& strand : curves.strands) points += strand.count + 1;
+    const size_t bytes = curves.curves.size() * sizeof(Curve);
+    if (is_hair_mesh_spec(spec)) {
+        const size_t file = std::filesystem::file_size(parse_hair_mesh_spec(spec).file);
+        inform("{}: {} bytes, {} strands, {} bytes of points, {} of curves (1 : {}), generated in {:.2f} s",
+               hair_mesh_name(parse_hair_mesh_spec(spec).file), file, curves.strands.size(), 16 * points,
+               bytes, bytes / file, seconds);
+    } else {
+        inform("{} strands, {} bytes of points, {} of curves, generated in {:.2f} s", curves.strands.size(),
+               16 * points, bytes, seconds);
+    }
 }
 
 int run(const Options& options) {
@@ -83,11 +115,29 @@ int run(const Options& options) {
             fail(ExitCode::usage, "--distance goes with hair meshes, not with {}", spec);
         spec = with_detail(spec, options);
     }
+    if (options.output.empty() && !options.write.strands_path.empty())
+        fail(ExitCode::usage, "--write-strands {}: goes with --output", options.write.strands_path);
+    if (!options.primitive.empty() && (options.device.empty() || !options.output.empty()))
+        fail(ExitCode::usage, "--primitive {}: goes with --device and without --output", options.primitive);
     const Stopwatch stopwatch;
-    ImportReport report;
-    const Curves curves =
-        options.device.empty() ? load_model(spec, {}, report) : grown_on(options.device, spec, options);
+    Curves curves;
+    if (options.device.empty()) {
+        ImportReport report;
+        curves = load_model(spec, {}, report);
+    } else {
+        const Device device({.selector = options.device});
+        DeviceCurves grown = grown_on(device, spec, options);
+        if (!options.primitive.empty())
+            build_there(device, std::move(grown), options);
+        else if (!options.output.empty())
+            curves = grown.download();
+        if (options.output.empty()) return 0;
+    }
     const double seconds = stopwatch.milliseconds() / 1000;
+    if (options.output.empty()) {
+        report_growth(spec, curves, seconds);
+        return 0;
+    }
     write_model(options.output, curves, options.write);
     inform("{}: {} strands, {} curves, generated in {:.2f} s", options.output, curves.strands.size(),
            curves.curves.size(), seconds);
@@ -109,14 +159,16 @@ Command generate_command() {
         "  strandlab generate models/wavy.hairmesh --style wave=0.01 --style curl=0.003 -o wavy.npy "
         "--write-strands strands.npy\n"
         "  strandlab generate models/ringlets.hairmesh --distance 4 -o far.npy   # 4 m from the camera\n"
-        "  strandlab generate models/ringlets.hairmesh --device llvmpipe -o same.npy\n" +
+        "  strandlab generate models/ringlets.hairmesh --device llvmpipe -o same.npy\n"
+        "  strandlab generate models/ringlets.hairmesh --device llvmpipe --primitive rocaps\n" +
         parameter_help();
     return {"generate", "grow the strands of a hair mesh, write them as .hair or .npy", examples,
             [](CLI::App& app) -> RunCommand {
                 auto options = std::make_shared<Options>();
                 app.add_option("MODEL", options->model, "FILE.hairmesh[,key=value,...] or generate:NAME,...")
                     ->required();
-                app.add_option("-o,--output", options->output, "file to write: .hair or .npy")->required();
+                app.add_option("-o,--output", options->output,
+                               "file to write: .hair or .npy; none: only says sizes and times");
                 app.add_option("--strands", options->strands, "number of strands at full detail");
                 app.add_option("--points", options->points, "curve points of a strand");
                 app.add_option("--seed", options->seed, "of the random numbers");
@@ -140,6 +192,10 @@ Command generate_command() {
                 app.add_option("--device", options->device,
                                "grow the strands on this device (as `info` lists them) instead of the host: "
                                "the same strands");
+                app.add_option(
+                    "--primitive", options->primitive,
+                    "with --device: build this primitive's acceleration structure there, without a copy "
+                    "of the curves on the host");
                 app.add_option("--points-per-curve", options->write.points_per_curve,
                                ".hair: points that each curve adds")
                     ->capture_default_str()

@@ -270,7 +270,10 @@ AccelerationStructure build_bottom_level(const Device& device, const BottomLevel
         const Stopwatch stopwatch;
         vk::AccelerationStructureGeometryKHR geometry;
         Buffer boxes, vertices, indices;
-        if (input.triangles.empty()) {
+        if (input.device_boxes != 0) {
+            cost.input_bytes = input.device_box_count * 6 * sizeof(float);
+            geometry = box_geometry(input.device_boxes);
+        } else if (input.triangles.empty()) {
             boxes = make_buffer(device, input.boxes, Buffer::Use::build_input);
             cost.input_bytes = input.boxes.size_bytes();
             geometry = box_geometry(boxes.address());

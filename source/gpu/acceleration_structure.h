@@ -12,16 +12,22 @@
 
 namespace strandlab {
 
-/// Geometry of one bottom-level structure, on the host: boxes (6 floats each: low, high), or triangles.
+/// Geometry of one bottom-level structure, on the host: boxes (6 floats each: low, high), or triangles; or
+/// boxes on the device (build_bottom_level alone).
 struct BottomLevelInput {
     std::span<const float> boxes;
+    uint64_t device_boxes = 0;  // not 0: their address; device_box_count of them
+    size_t device_box_count = 0;
     std::span<const glm::vec3> vertices;
     std::span<const glm::uvec3> triangles;
     bool opaque = true;
     bool compact = true;
     bool low_memory = false;  // smaller, and slower to trace, where the driver can
 
-    size_t leaf_count() const { return triangles.empty() ? boxes.size() / 6 : triangles.size(); }
+    size_t leaf_count() const {
+        if (device_boxes != 0) return device_box_count;
+        return triangles.empty() ? boxes.size() / 6 : triangles.size();
+    }
 };
 
 /// Times and sizes of builds; added up over the structures of a scene. Sizes are what the driver says.

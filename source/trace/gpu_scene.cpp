@@ -64,6 +64,13 @@ BottomLevelInput input_of(const Geometry& geometry, const std::vector<Box>& padd
     return input;
 }
 
+BottomLevelInput device_input(const DeviceLeaves& leaves, size_t first, size_t count) {
+    BottomLevelInput input;
+    input.device_boxes = leaves.boxes.address() + first * sizeof(Box);
+    input.device_box_count = count;
+    return input;
+}
+
 /// Puts the leaves in the order of the rays that they belong to.
 void order_by_ray(Geometry& geometry, uint32_t curves) {
     std::vector<uint32_t> order(geometry.leaf_count());
@@ -131,6 +138,10 @@ void GpuScene::choose_skips(std::span<const SceneModel> models, std::span<const 
     const uint32_t strand_curves = common_value(
         models, [](const Geometry& geometry) { return overlapping_in_a_row(geometry.curve_records); });
     has_leaf_table_ = !skips("leaf-table", std::all_of(models.begin(), models.end(), is_uniform));
+    const auto is_on_device = [](const SceneModel& model) { return model.on_device != nullptr; };
+    if ((has_leaf_table_ || curves_of_a_ray_ != 0) && std::any_of(models.begin(), models.end(), is_on_device))
+        fail(ExitCode::usage,
+             "models that grow on the device have no table of leaves: leave out --no-skip leaf-table");
     if (!has_leaf_table_ && skips("pieces", pieces != 0)) uniform_pieces_ = pieces;
     if (skips("points", strand_curves != 0)) strand_curves_ = strand_curves;
     is_in_place_ = skips("transform", std::all_of(instances.begin(), instances.end(), is_in_place));
@@ -140,7 +151,10 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     const Geometry& geometry = model.geometry;
     const Stopwatch stopwatch;
     ModelBuffers& buffers = model_buffers_.emplace_back();
-    if (has_leaf_table_) {
+    if (model.on_device) {
+        buffers.curve_records = std::move(model.on_device->curve_records);
+        cost_.record_bytes += buffers.curve_records.size();
+    } else if (has_leaf_table_) {
         buffers.leaves = make_buffer(device_, std::span<const Leaf>(geometry.leaves), Buffer::Use::storage);
         cost_.record_bytes += geometry.leaves.size() * sizeof(Leaf);
     }
@@ -154,17 +168,19 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
     if (geometry.shading_records.stride != 0 && (options.normals || geometry.always_shades))
         buffers.shading_records = upload(device_, geometry.shading_records.bytes, cost_);
     cost_.builds.upload_ms += stopwatch.milliseconds();
-    cost_.leaf_count += geometry.leaf_count();
+    cost_.leaf_count += model.leaf_count();
 
     std::vector<Box> boxes(geometry.boxes.size());
     parallel_for(boxes.size(), [&](size_t i) { boxes[i] = padded(geometry.boxes[i], options.ray_extent); });
     const size_t most = leaves_per_structure(device_.info(), options.max_leaves);
     const size_t first_part = parts_.size();
     std::vector<BottomLevelInput> inputs;
-    for (size_t first = 0, count = 0; first < geometry.leaf_count(); first += count) {
-        count = std::min(most, geometry.leaf_count() - first);
+    for (size_t first = 0, count = 0; first < model.leaf_count(); first += count) {
+        count = std::min(most, model.leaf_count() - first);
         if (curves_of_a_ray_ != 0) count = whole_rays(geometry.leaves, first, count, curves_of_a_ray_);
-        BottomLevelInput& input = inputs.emplace_back(input_of(geometry, boxes, first, count));
+        BottomLevelInput& input =
+            inputs.emplace_back(model.on_device ? device_input(*model.on_device, first, count)
+                                                : input_of(geometry, boxes, first, count));
         input.compact = options.compact;
         input.low_memory = options.low_memory;
         input.opaque = curves_of_a_ray_ == 0;
@@ -172,6 +188,7 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
         ++cost_.structure_count;
     }
     build_parts(inputs, first_part);
+    if (model.on_device) model.on_device->boxes = {};
 }
 
 void GpuScene::build_parts(std::span<const BottomLevelInput> inputs, size_t first_part) {

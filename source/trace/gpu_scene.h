@@ -22,10 +22,22 @@
 
 namespace strandlab {
 
+/// Boxes and curve records that were made on the device (trace/grown_model.h).
+struct DeviceLeaves {
+    Buffer boxes;  // Box[], padded; given up when they are built
+    Buffer curve_records;
+    size_t count = 0;
+};
+
 /// One model of a scene: its geometry for the primitive, and its first curve within the scene.
 struct SceneModel {
     Geometry geometry;
     uint32_t first_curve = 0;
+    /// Instead of what geometry would hold besides constants and uniform_pieces; one scene takes it. Not
+    /// traced on the CPU.
+    std::shared_ptr<DeviceLeaves> on_device = nullptr;
+
+    size_t leaf_count() const { return on_device ? on_device->count : geometry.leaf_count(); }
 };
 
 /// How a scene is put on the device.
