@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <ctime>
 #include <limits>
 
 namespace strandlab {
@@ -48,16 +50,36 @@ float thinnest(const Curves& curves) {
     return least;
 }
 
-/// Rays whose answer differs by more than rounding: hit or miss, or the distance.
-size_t differences(const Hits& a, const Hits& b, float radius) {
-    size_t count = 0;
+/// How many rays have another answer.
+struct Differences {
+    size_t answers = 0;  // by more than rounding: hit or miss, the strand, or the distance
+    size_t bits = 0;     // by anything at all
+};
+
+Differences differences(const Hits& a, const Hits& b, const Curves& curves) {
+    Differences count;
+    const float radius = thinnest(curves);
     for (size_t i = 0; i < a.hits.size(); ++i) {
-        const bool both = a.hits[i].is_hit() && b.hits[i].is_hit();
-        const float allowed = std::max(1e-2f * radius, 1e-6f * std::abs(a.hits[i].t));
-        if (a.hits[i].is_hit() != b.hits[i].is_hit() ||
-            (both && !(std::abs(a.hits[i].t - b.hits[i].t) <= allowed)))
-            ++count;
+        const Hit &one = a.hits[i], &other = b.hits[i];
+        if (std::memcmp(&one, &other, sizeof one) == 0) continue;
+        ++count.bits;
+        const bool both = one.is_hit() && other.is_hit();
+        const float allowed = std::max(1e-2f * radius, 1e-6f * std::abs(one.t));
+        const bool same_strand = both && one.instance == other.instance &&
+                                 curves.strand_of(one.curve) == curves.strand_of(other.curve);
+        if (one.is_hit() != other.is_hit() ||
+            (both && !(same_strand && std::abs(one.t - other.t) <= allowed)))
+            ++count.answers;
     }
+    return count;
+}
+
+/// Of shadow rays, whose records say only whether there is a hit.
+Differences shadow_differences(const Hits& a, const Hits& b) {
+    Differences count;
+    for (size_t i = 0; i < a.hits.size(); ++i)
+        if (a.hits[i].is_hit() != b.hits[i].is_hit()) ++count.answers;
+    count.bits = count.answers;
     return count;
 }
 
@@ -121,9 +143,18 @@ void explain_start(const Variant& all, const CaseInput& input, const StartTimes&
     fmt::print("\n");
 }
 
-/// Median times of the variants and, last, of Embree where there is one.
-std::vector<double> median_times(std::vector<Variant>& variants, const EmbreeScene* embree,
-                                 const CaseInput& input, const MeasuredRays& rays, uint64_t seed) {
+/// Medians over the rounds.
+struct MedianTimes {
+    double device_ms = 0;
+    /// Of all threads of the program together: on a processor that others use as well, what can be compared.
+    double processor_ms = 0;
+};
+
+double processor_ms() { return 1e3 * double(std::clock()) / double(CLOCKS_PER_SEC); }
+
+/// Of the variants and, last, of Embree where there is one.
+std::vector<MedianTimes> median_times(std::vector<Variant>& variants, const EmbreeScene* embree,
+                                      const CaseInput& input, const MeasuredRays& rays, uint64_t seed) {
     const std::unique_ptr<TracedRays> buffers = input.device.upload(rays.rays, input.options.normals);
     std::vector<std::function<double()>> traces;
     for (Variant& variant : variants) {
@@ -139,36 +170,54 @@ std::vector<double> median_times(std::vector<Variant>& variants, const EmbreeSce
             embree->trace(rays.rays.rays, std::span<Hit>(embree_hits));
             return stopwatch.milliseconds();
         });
+    std::vector<std::vector<double>> processor(traces.size());
+    std::vector<std::function<double()>> watched;
+    for (size_t i = 0; i < traces.size(); ++i)
+        watched.emplace_back([&, i] {
+            const double before = processor_ms(), device = traces[i]();
+            processor[i].push_back(processor_ms() - before);
+            return device;
+        });
     const auto samples =
-        interleave(traces, {.rounds = input.samples, .warm_up_ms = input.warm_up_ms, .seed = seed});
-    std::vector<double> times;
-    for (const TimeSamples& one : samples) times.push_back(summarise(one.device_ms, seed).median);
+        interleave(watched, {.rounds = input.samples, .warm_up_ms = input.warm_up_ms, .seed = seed});
+    std::vector<MedianTimes> times;
+    for (size_t i = 0; i < traces.size(); ++i)
+        times.push_back({summarise(samples[i].device_ms, seed).median, summarise(processor[i], seed).median});
     return times;
 }
 
 void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, const CaseInput& input,
                  const MeasuredRays& rays, const PrimitiveChoice& choice, uint64_t seed) {
-    const std::vector<double> times = median_times(variants, embree, input, rays, seed);
-    Table table({{.heading = choice.label() + ", " + rays.rays.name, .text = true},
-                 {"trace", "ms"},
-                 {"time", "ratio"},
-                 {"memory", "ratio"},
-                 {"answers that differ", "rays"}});
+    const std::vector<MedianTimes> times = median_times(variants, embree, input, rays, seed);
+    const bool on_processor = input.device.info().kind == "cpu";
+    std::vector<Column> columns{{.heading = choice.label() + ", " + rays.rays.name, .text = true},
+                                {"trace", "ms"},
+                                {"time", "ratio"}};
+    if (on_processor) columns.insert(columns.end(), {{"processor", "ms"}, {"processor", "ratio"}});
+    columns.insert(columns.end(),
+                   {{"memory", "ratio"}, {"answers that differ", "rays"}, {"bits that differ", "rays"}});
+    Table table(columns);
     const auto time_cells = [&](const std::string& name, size_t i) {
-        return std::vector<std::string>{name, fmt::format("{:.4g}", times[i]),
-                                        fmt::format("{:.3f}", times[i] / times[0])};
+        std::vector<std::string> cells{name, fmt::format("{:.4g}", times[i].device_ms),
+                                       fmt::format("{:.3f}", times[i].device_ms / times[0].device_ms)};
+        if (on_processor)
+            cells.insert(cells.end(), {fmt::format("{:.4g}", times[i].processor_ms),
+                                       fmt::format("{:.3f}", times[i].processor_ms / times[0].processor_ms)});
+        return cells;
     };
     for (size_t i = 0; i < variants.size(); ++i) {
         std::vector<std::string> cells = time_cells(variants[i].name, i);
         cells.push_back(fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
                                                   double(variants[0].prepared.resident_bytes())));
-        cells.push_back(
-            fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves))));
+        const Differences count = rays.shadow ? shadow_differences(variants[0].hits, variants[i].hits)
+                                              : differences(variants[0].hits, variants[i].hits, input.curves);
+        cells.push_back(fmt::format("{}", count.answers));
+        cells.push_back(fmt::format("{}", count.bits));
         table.add_row(std::move(cells));
     }
     if (embree != nullptr) {
         std::vector<std::string> cells = time_cells("Embree's round curves", variants.size());
-        cells.insert(cells.end(), {"-", "-"});  // of another surface
+        cells.insert(cells.end(), {"-", "-", "-"});  // of another surface
         table.add_row(std::move(cells));
     }
     fmt::print("\n{}", table.to_string(standard_output_style()));

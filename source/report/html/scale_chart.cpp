@@ -2,14 +2,10 @@
 
 #include "report/html/plot.h"
 #include "report/html/row_groups.h"
-#include "report/row_fields.h"
 #include "report/scale_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace strandlab {
 
@@ -29,12 +25,7 @@ std::vector<Line> lines_of(std::span<const Json> rows, const std::vector<ScaleSe
                            const ScaleCost& cost) {
     std::vector<Line> lines;
     for (size_t i = 0; i < all.size(); ++i) {
-        Line line{i, all[i].rows.front(), {}};
-        for (const size_t row : all[i].rows) {
-            const double curves = number_or_nan(rows[row], "model.curves"),
-                         value = number_or_nan(rows[row], cost.field);
-            if (curves > 0 && value > 0 && std::isfinite(value)) line.points.emplace_back(curves, value);
-        }
+        Line line{i, all[i].rows.front(), scale_points(rows, all[i], cost)};
         if (!line.points.empty()) lines.push_back(std::move(line));
     }
     return lines;
@@ -52,7 +43,8 @@ void draw_panel(Drawing& drawing, const PlotArea& area, const std::vector<Line>&
         for (const auto& [size, value] : line.points) points.push_back({x.at(size), y.at(value)});
         draw_line(drawing, line.series, points, line.row);
     }
-    draw_axes(drawing, area, "curves", title);
+    draw_axes(drawing, area, "curves", "");
+    drawing.text("title middle", (area.left + area.right) / 2, area.top - 4, title);
 }
 
 }  // namespace
@@ -76,7 +68,7 @@ std::string scale_chart(std::span<const Json> rows) {
         const double left = panel_width * double(i % panels_in_row),
                      high = top + panel_height * double(i / panels_in_row);
         const bool is_bytes = std::string_view(cost.field).starts_with("memory");
-        draw_panel(drawing, {left + 60, high + 14, left + panel_width - 16, high + panel_height - 46},
+        draw_panel(drawing, {left + 60, high + 20, left + panel_width - 16, high + panel_height - 46},
                    lines_of(rows, all, cost), fmt::format("{}, {}", cost.name, is_bytes ? "bytes" : "ms"));
     }
     return drawing.file();
