@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -53,10 +54,12 @@ Pixels picture_of(const std::string& name, const std::string& changes = "") {
     shading.samples = samples;
     shading.to_light = light_direction(camera);
     const Image image = shade(rays, hits, curves, shading);
-    const std::vector<float>& colours = image.with_channel("R")->floats;
+    const Layer& layer = *image.with_channel("R");
+    const std::vector<float>& colours = layer.floats();
+    const size_t step = layer.channels.size();
     Pixels pixels(size_t(width) * height);
     for (size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = {colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]};
+        pixels[i] = {colours[step * i], colours[step * i + 1], colours[step * i + 2]};
     return pixels;
 }
 
