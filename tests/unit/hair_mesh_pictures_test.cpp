@@ -29,7 +29,7 @@ std::string path_of(const std::string& name) {
     return fmt::format(STRANDLAB_MODELS "/../tests/figures/hairstyles/{}.ppm", name);
 }
 
-/// Over a body that is black: rays that meet the head end there.
+/// The hair alone: rays end at the head, which is not drawn.
 Pixels picture_of(const std::string& name, const std::string& changes = "") {
     const bool is_fur = name == "fur";
     Scene scene = load_scene(fmt::format(STRANDLAB_MODELS "/{}.hairmesh,strands={},points={},thickness=6{}",
