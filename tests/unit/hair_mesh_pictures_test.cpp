@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -28,7 +29,7 @@ std::string path_of(const std::string& name) {
     return fmt::format(STRANDLAB_MODELS "/../tests/figures/hairstyles/{}.ppm", name);
 }
 
-/// Over a body that is black: rays that meet the head end there.
+/// The hair alone: rays end at the head, which is not drawn.
 Pixels picture_of(const std::string& name, const std::string& changes = "") {
     const bool is_fur = name == "fur";
     Scene scene = load_scene(fmt::format(STRANDLAB_MODELS "/{}.hairmesh,strands={},points={},thickness=6{}",
@@ -53,10 +54,12 @@ Pixels picture_of(const std::string& name, const std::string& changes = "") {
     shading.samples = samples;
     shading.to_light = light_direction(camera);
     const Image image = shade(rays, hits, curves, shading);
-    const std::vector<float>& colours = image.with_channel("R")->floats;
+    const Layer& layer = *image.with_channel("R");
+    const std::vector<float>& colours = layer.floats();
+    const size_t step = layer.channels.size();
     Pixels pixels(size_t(width) * height);
     for (size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = {colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]};
+        pixels[i] = {colours[step * i], colours[step * i + 1], colours[step * i + 2]};
     return pixels;
 }
 
