@@ -86,7 +86,8 @@ void main() {
         for (uint axis = 0u; axis < 3u; ++axis) {
             vec4 position = vec4(c[0][axis], c[1][axis], c[2][axis], c[3][axis]);
             vec4 radius = vec4(c[0].w, c[1].w, c[2].w, c[3].w);
-            float margin = evaluation_ulps * ulp * reach[axis] + padding_ulps * ulp * (1.001 * largest + parameters.extent);
+            float margin = evaluation_ulps * ulp * reach[axis] +
+                           padding_ulps * ulp * (1.001 * largest + parameters.extent);
             uint at = 6u * (parameters.splits * index + piece) + axis;
             boxes.items[at] = range_of(position - radius, a, b).x - margin;
             boxes.items[at + 3u] = range_of(position + radius, a, b).y + margin;
