@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 
 namespace strandlab {
@@ -48,16 +49,36 @@ float thinnest(const Curves& curves) {
     return least;
 }
 
-/// Rays whose answer differs by more than rounding: hit or miss, or the distance.
-size_t differences(const Hits& a, const Hits& b, float radius) {
-    size_t count = 0;
+/// How many rays have another answer.
+struct Differences {
+    size_t answers = 0;  // by more than rounding: hit or miss, the strand, or the distance
+    size_t bits = 0;     // by anything at all
+};
+
+Differences differences(const Hits& a, const Hits& b, const Curves& curves) {
+    Differences count;
+    const float radius = thinnest(curves);
     for (size_t i = 0; i < a.hits.size(); ++i) {
-        const bool both = a.hits[i].is_hit() && b.hits[i].is_hit();
-        const float allowed = std::max(1e-2f * radius, 1e-6f * std::abs(a.hits[i].t));
-        if (a.hits[i].is_hit() != b.hits[i].is_hit() ||
-            (both && !(std::abs(a.hits[i].t - b.hits[i].t) <= allowed)))
-            ++count;
+        const Hit &one = a.hits[i], &other = b.hits[i];
+        if (std::memcmp(&one, &other, sizeof one) == 0) continue;
+        ++count.bits;
+        const bool both = one.is_hit() && other.is_hit();
+        const float allowed = std::max(1e-2f * radius, 1e-6f * std::abs(one.t));
+        const bool same_strand = both && one.instance == other.instance &&
+                                 curves.strand_of(one.curve) == curves.strand_of(other.curve);
+        if (one.is_hit() != other.is_hit() ||
+            (both && !(same_strand && std::abs(one.t - other.t) <= allowed)))
+            ++count.answers;
     }
+    return count;
+}
+
+/// Of shadow rays, whose records say only whether there is a hit.
+Differences shadow_differences(const Hits& a, const Hits& b) {
+    Differences count;
+    for (size_t i = 0; i < a.hits.size(); ++i)
+        if (a.hits[i].is_hit() != b.hits[i].is_hit()) ++count.answers;
+    count.bits = count.answers;
     return count;
 }
 
@@ -153,7 +174,8 @@ void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, cons
                  {"trace", "ms"},
                  {"time", "ratio"},
                  {"memory", "ratio"},
-                 {"answers that differ", "rays"}});
+                 {"answers that differ", "rays"},
+                 {"bits that differ", "rays"}});
     const auto time_cells = [&](const std::string& name, size_t i) {
         return std::vector<std::string>{name, fmt::format("{:.4g}", times[i]),
                                         fmt::format("{:.3f}", times[i] / times[0])};
@@ -162,13 +184,15 @@ void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, cons
         std::vector<std::string> cells = time_cells(variants[i].name, i);
         cells.push_back(fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
                                                   double(variants[0].prepared.resident_bytes())));
-        cells.push_back(
-            fmt::format("{}", differences(variants[0].hits, variants[i].hits, thinnest(input.curves))));
+        const Differences count = rays.shadow ? shadow_differences(variants[0].hits, variants[i].hits)
+                                              : differences(variants[0].hits, variants[i].hits, input.curves);
+        cells.push_back(fmt::format("{}", count.answers));
+        cells.push_back(fmt::format("{}", count.bits));
         table.add_row(std::move(cells));
     }
     if (embree != nullptr) {
         std::vector<std::string> cells = time_cells("Embree's round curves", variants.size());
-        cells.insert(cells.end(), {"-", "-"});  // of another surface
+        cells.insert(cells.end(), {"-", "-", "-"});  // of another surface
         table.add_row(std::move(cells));
     }
     fmt::print("\n{}", table.to_string(standard_output_style()));

@@ -51,6 +51,20 @@ std::vector<ScaleSeries> scale_series(std::span<const Json> rows) {
     return all;
 }
 
+std::vector<std::pair<double, double>> scale_points(std::span<const Json> rows, const ScaleSeries& series,
+                                                    const ScaleCost& cost) {
+    std::vector<std::pair<double, double>> points;
+    for (const size_t row : series.rows) {
+        const bool was_read =
+            cost.field == std::string_view("time.order_ms") && is_true_at(rows[row], "time.order_cached");
+        const double curves = number_or_nan(rows[row], "model.curves"),
+                     value = number_or_nan(rows[row], cost.field);
+        if (!was_read && curves > 0 && value > 0 && std::isfinite(curves) && std::isfinite(value))
+            points.emplace_back(curves, value);
+    }
+    return points;
+}
+
 std::optional<double> fitted_exponent(std::span<const std::pair<double, double>> points) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& [size, cost] : points) {
@@ -75,10 +89,7 @@ std::string scale_table(std::span<const Json> rows) {
         std::vector<std::string> cells{series.primitive, series.rays, curves(series.rows.front()),
                                        curves(series.rows.back())};
         for (const ScaleCost& cost : costs) {
-            std::vector<std::pair<double, double>> points;
-            for (const size_t row : series.rows)
-                points.emplace_back(number_or_nan(rows[row], "model.curves"),
-                                    number_or_nan(rows[row], cost.field));
+            const auto points = scale_points(rows, series, cost);
             const auto exponent = fitted_exponent(points);
             cells.push_back(exponent ? fmt::format("{:.2f}", *exponent) : "-");
         }

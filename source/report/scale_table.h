@@ -25,6 +25,11 @@ struct ScaleSeries {
 };
 std::vector<ScaleSeries> scale_series(std::span<const nlohmann::ordered_json> rows);
 
+/// Curves and cost of the rows of a series; those without are left out, and orders of leaves that an earlier
+/// run had left (which cost a read).
+std::vector<std::pair<double, double>> scale_points(std::span<const nlohmann::ordered_json> rows,
+                                                    const ScaleSeries& series, const ScaleCost& cost);
+
 /// The exponent b of cost = a n^b by least squares of the logarithms; nothing for fewer than two sizes.
 /// Points that are not positive are left out.
 std::optional<double> fitted_exponent(std::span<const std::pair<double, double>> points);

@@ -36,6 +36,11 @@ TEST(ScaleTable, OneLineForEachPrimitive) {
     ASSERT_EQ(series.size(), 2u);
     EXPECT_EQ(series[0].primitive, "prhi");
     EXPECT_EQ(series[0].rows, (std::vector<size_t>{2, 4, 0}));
+    rows[2]["time"]["order_cached"] = true;  // read, not measured
+    EXPECT_EQ(scale_points(rows, series[0], {"trace", "time.trace_ms.median"}).size(), 3u);
+    rows[4]["time"]["order_ms"] = 7;
+    rows[2]["time"]["order_ms"] = 7;
+    EXPECT_EQ(scale_points(rows, series[0], {"order", "time.order_ms"}).size(), 1u);
     const std::string table = scale_table(rows);
     EXPECT_NE(table.find("1,000"), std::string::npos);
     EXPECT_NE(table.find("1.00"), std::string::npos) << table;  // of the trace times

@@ -2,14 +2,10 @@
 
 #include "report/html/plot.h"
 #include "report/html/row_groups.h"
-#include "report/row_fields.h"
 #include "report/scale_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace strandlab {
 
@@ -29,12 +25,7 @@ std::vector<Line> lines_of(std::span<const Json> rows, const std::vector<ScaleSe
                            const ScaleCost& cost) {
     std::vector<Line> lines;
     for (size_t i = 0; i < all.size(); ++i) {
-        Line line{i, all[i].rows.front(), {}};
-        for (const size_t row : all[i].rows) {
-            const double curves = number_or_nan(rows[row], "model.curves"),
-                         value = number_or_nan(rows[row], cost.field);
-            if (curves > 0 && value > 0 && std::isfinite(value)) line.points.emplace_back(curves, value);
-        }
+        Line line{i, all[i].rows.front(), scale_points(rows, all[i], cost)};
         if (!line.points.empty()) lines.push_back(std::move(line));
     }
     return lines;
