@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <limits>
 
 namespace strandlab {
@@ -142,9 +143,18 @@ void explain_start(const Variant& all, const CaseInput& input, const StartTimes&
     fmt::print("\n");
 }
 
-/// Median times of the variants and, last, of Embree where there is one.
-std::vector<double> median_times(std::vector<Variant>& variants, const EmbreeScene* embree,
-                                 const CaseInput& input, const MeasuredRays& rays, uint64_t seed) {
+/// Medians over the rounds.
+struct MedianTimes {
+    double device_ms = 0;
+    /// Of all threads of the program together: on a processor that others use as well, what can be compared.
+    double processor_ms = 0;
+};
+
+double processor_ms() { return 1e3 * double(std::clock()) / double(CLOCKS_PER_SEC); }
+
+/// Of the variants and, last, of Embree where there is one.
+std::vector<MedianTimes> median_times(std::vector<Variant>& variants, const EmbreeScene* embree,
+                                      const CaseInput& input, const MeasuredRays& rays, uint64_t seed) {
     const std::unique_ptr<TracedRays> buffers = input.device.upload(rays.rays, input.options.normals);
     std::vector<std::function<double()>> traces;
     for (Variant& variant : variants) {
@@ -160,25 +170,40 @@ std::vector<double> median_times(std::vector<Variant>& variants, const EmbreeSce
             embree->trace(rays.rays.rays, std::span<Hit>(embree_hits));
             return stopwatch.milliseconds();
         });
+    std::vector<std::vector<double>> processor(traces.size());
+    std::vector<std::function<double()>> watched;
+    for (size_t i = 0; i < traces.size(); ++i)
+        watched.emplace_back([&, i] {
+            const double before = processor_ms(), device = traces[i]();
+            processor[i].push_back(processor_ms() - before);
+            return device;
+        });
     const auto samples =
-        interleave(traces, {.rounds = input.samples, .warm_up_ms = input.warm_up_ms, .seed = seed});
-    std::vector<double> times;
-    for (const TimeSamples& one : samples) times.push_back(summarise(one.device_ms, seed).median);
+        interleave(watched, {.rounds = input.samples, .warm_up_ms = input.warm_up_ms, .seed = seed});
+    std::vector<MedianTimes> times;
+    for (size_t i = 0; i < traces.size(); ++i)
+        times.push_back({summarise(samples[i].device_ms, seed).median, summarise(processor[i], seed).median});
     return times;
 }
 
 void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, const CaseInput& input,
                  const MeasuredRays& rays, const PrimitiveChoice& choice, uint64_t seed) {
-    const std::vector<double> times = median_times(variants, embree, input, rays, seed);
-    Table table({{.heading = choice.label() + ", " + rays.rays.name, .text = true},
-                 {"trace", "ms"},
-                 {"time", "ratio"},
-                 {"memory", "ratio"},
-                 {"answers that differ", "rays"},
-                 {"bits that differ", "rays"}});
+    const std::vector<MedianTimes> times = median_times(variants, embree, input, rays, seed);
+    const bool on_processor = input.device.info().kind == "cpu";
+    std::vector<Column> columns{{.heading = choice.label() + ", " + rays.rays.name, .text = true},
+                                {"trace", "ms"},
+                                {"time", "ratio"}};
+    if (on_processor) columns.insert(columns.end(), {{"processor", "ms"}, {"processor", "ratio"}});
+    columns.insert(columns.end(),
+                   {{"memory", "ratio"}, {"answers that differ", "rays"}, {"bits that differ", "rays"}});
+    Table table(columns);
     const auto time_cells = [&](const std::string& name, size_t i) {
-        return std::vector<std::string>{name, fmt::format("{:.4g}", times[i]),
-                                        fmt::format("{:.3f}", times[i] / times[0])};
+        std::vector<std::string> cells{name, fmt::format("{:.4g}", times[i].device_ms),
+                                       fmt::format("{:.3f}", times[i].device_ms / times[0].device_ms)};
+        if (on_processor)
+            cells.insert(cells.end(), {fmt::format("{:.4g}", times[i].processor_ms),
+                                       fmt::format("{:.3f}", times[i].processor_ms / times[0].processor_ms)});
+        return cells;
     };
     for (size_t i = 0; i < variants.size(); ++i) {
         std::vector<std::string> cells = time_cells(variants[i].name, i);

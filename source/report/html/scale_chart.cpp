@@ -43,7 +43,8 @@ void draw_panel(Drawing& drawing, const PlotArea& area, const std::vector<Line>&
         for (const auto& [size, value] : line.points) points.push_back({x.at(size), y.at(value)});
         draw_line(drawing, line.series, points, line.row);
     }
-    draw_axes(drawing, area, "curves", title);
+    draw_axes(drawing, area, "curves", "");
+    drawing.text("title middle", (area.left + area.right) / 2, area.top - 4, title);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ std::string scale_chart(std::span<const Json> rows) {
         const double left = panel_width * double(i % panels_in_row),
                      high = top + panel_height * double(i / panels_in_row);
         const bool is_bytes = std::string_view(cost.field).starts_with("memory");
-        draw_panel(drawing, {left + 60, high + 14, left + panel_width - 16, high + panel_height - 46},
+        draw_panel(drawing, {left + 60, high + 20, left + panel_width - 16, high + panel_height - 46},
                    lines_of(rows, all, cost), fmt::format("{}, {}", cost.name, is_bytes ? "bytes" : "ms"));
     }
     return drawing.file();
