@@ -46,6 +46,8 @@ bool encode(const char* format, const PackedPicture* picture,
     if (std::string(format) == "exr") spec.attribute("compression", "zip");
     if (std::string(format) == "png") spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Software", "strandlab");
+    // Else the module writes the time, and the same picture is never the same file.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     // The type "unknown" stands for the channels' own types, packed.
     const bool written = file->open(std::string("image.") + format, spec) &&
                          file->write_image(OIIO::TypeDesc::UNKNOWN, picture->pixels) && file->close();
