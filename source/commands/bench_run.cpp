@@ -1,15 +1,12 @@
-#include "commands/bench_run.h"
-
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "commands/bench_block.h"
 #include "commands/bench_presets.h"
 #include "commands/embree_case.h"
 #include "commands/hit_files.h"
 #include "measure/memory_budget.h"
 #include "measure/pareto.h"
-#include "report/case_images.h"
-#include "report/distant_pictures.h"
 #include "report/file_name.h"
 #include "report/images.h"
 #include "report/profile_table.h"
@@ -29,13 +26,6 @@ namespace strandlab {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-size_t index_of(const std::vector<PrimitiveChoice>& choices, const PrimitiveChoice& choice) {
-    const auto found = std::find_if(choices.begin(), choices.end(), [&](const PrimitiveChoice& other) {
-        return other.label() == choice.label();
-    });
-    return static_cast<size_t>(found - choices.begin());
-}
 
 /// The baseline primitive's place among the choices: the first without a name.
 size_t baseline_index(const std::vector<PrimitiveChoice>& choices, const std::string& name) {
@@ -80,38 +70,7 @@ std::vector<std::string> without_folders(std::vector<std::string> sets) {
     return sets;
 }
 
-/// The path as a row holds it: from the folder of the rows' file, so that both can be moved together.
-std::string path_in_row(const std::string& path, const std::string& json) {
-    namespace fs = std::filesystem;
-    const fs::path folder = json.empty() ? fs::current_path() : fs::absolute(json).parent_path();
-    return fs::absolute(path).lexically_proximate(folder).string();
-}
-
 }  // namespace
-
-/// A case that has no row yet.
-struct BenchRun::Case {
-    size_t set, primitive;
-};
-
-struct BenchRun::Block {
-    size_t model, resolution;
-    const Scene& scene;
-    const Curves& curves;
-    ModelFacts facts;
-    RaySets rays;
-    std::vector<RayFacts> ray_facts;  // of each set; of those not wanted empty
-    CaseInput input;
-    std::vector<Case> open;                            // cases to measure
-    std::map<size_t, Json> rows = {};                  // by case number
-    std::vector<ReferenceHit> picture_reference = {};  // of the rays that are a picture, once wanted
-    std::map<size_t, std::vector<DistantError>> distances = {};  // of primitives, where wanted
-
-    bool is_open(size_t set, size_t primitive) const {
-        return std::any_of(open.begin(), open.end(),
-                           [&](const Case& one) { return one.set == set && one.primitive == primitive; });
-    }
-};
 
 BenchRun::BenchRun(BenchOptions& options)
     : options_(options),
@@ -378,59 +337,6 @@ bool BenchRun::is_within_limits(const ResultRow& row) {
 void BenchRun::add(Block& block, ResultRow row) {
     row.reproduce = reproducing_command(options_, row);
     block.rows[row.sweep.number] = writer_->add(row);
-}
-
-void BenchRun::measure_distances(Block& block) const {
-    if (options_.images.empty()) return;
-    std::optional<DistantPictures> pictures;
-    for (const Case& one : block.open) {
-        if (one.primitive == choices_.size() || !block.rays.sets()[one.set].is_picture) continue;
-        if (is_over_budget()) return;
-        if (!pictures) {
-            const Resolution& size = resolutions_[block.resolution];
-            pictures.emplace(block.input, camera_of(block.scene, options_.rays, size), size.width,
-                             size.height, options_.rays.seed, caps_);
-        }
-        try {
-            block.distances[one.primitive] = pictures->errors_of(choices_[one.primitive]);
-        } catch (const OutOfMemory&) {
-            warn("{}: {} does not fit the device, no pictures from farther away", block.scene.name,
-                 choices_[one.primitive].label());
-        }
-    }
-}
-
-std::string BenchRun::file_stem(const Block& block, const char* separator) const {
-    const std::string& model = model_files_[block.model];
-    return resolutions_.size() > 1 ? model + separator + axes_->resolutions[block.resolution] : model;
-}
-
-CaseFiles BenchRun::write_pictures(Block& block, const PreparedCase& prepared, const MeasuredRays& rays,
-                                   const Hits& hits) const {
-    if (block.picture_reference.empty())
-        block.picture_reference =
-            make_scene_hits(block.scene, common_surfaces(block.scene, caps_), rays.rays.rays);
-    std::vector<glm::mat4x3> transforms;
-    if (!block.scene.is_plain())
-        for (const SceneInstance& instance : block.scene.instances)
-            transforms.push_back(instance.world_from_object);
-    const Resolution& size = resolutions_[block.resolution];
-    const CaseImages files =
-        write_case_images({.folder = options_.images,
-                           .scene = file_stem(block, "_"),
-                           .label = primitive_files_[index_of(choices_, prepared.choice)],
-                           .width = size.width,
-                           .height = size.height,
-                           .rays = rays.rays,
-                           .hits = hits,
-                           .curves = block.curves,
-                           .reference = block.picture_reference,
-                           .to_light = light_direction(camera_of(block.scene, options_.rays, size)),
-                           .world_from_object = transforms});
-    const auto in_row = [&](const std::string& path) {
-        return path.empty() ? "" : path_in_row(path, options_.json);
-    };
-    return {in_row(files.rendered), in_row(files.reference), in_row(files.error_map)};
 }
 
 }  // namespace strandlab
