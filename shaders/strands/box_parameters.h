@@ -2,14 +2,9 @@
 #ifndef STRANDLAB_BOX_PARAMETERS_H
 #define STRANDLAB_BOX_PARAMETERS_H
 
-#ifdef __cplusplus
-#include <cstdint>
-namespace strandlab::layout {
-using address = uint64_t;
-using uint = uint32_t;
-#else
-#define address uvec2
-#endif
+#include "../shared/layout.h"
+
+LAYOUT_BEGIN
 
 struct BoxParameters {
     address curves;   // 16 floats each; the ends of strands are marked in place
@@ -23,11 +18,7 @@ struct BoxParameters {
     uint unused;
 };
 
-#ifdef __cplusplus
-static_assert(sizeof(BoxParameters) == 48);
-}  // namespace strandlab::layout
-#else
-#undef address
-#endif
+LAYOUT_SIZE(BoxParameters, 48)
+LAYOUT_END
 
 #endif

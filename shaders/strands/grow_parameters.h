@@ -1,16 +1,10 @@
-// Layout header: what the shaders that grow strands read, in GLSL and C++. Addresses are uvec2 in GLSL, so
-// that no 64-bit integer feature is needed.
+// Layout header: what the shaders that grow strands read, in GLSL and C++.
 #ifndef STRANDLAB_GROW_PARAMETERS_H
 #define STRANDLAB_GROW_PARAMETERS_H
 
-#ifdef __cplusplus
-#include <cstdint>
-namespace strandlab::layout {
-using address = uint64_t;
-using uint = uint32_t;
-#else
-#define address uvec2
-#endif
+#include "../shared/layout.h"
+
+LAYOUT_BEGIN
 
 // A face and its strands.
 struct GrowthFace {
@@ -51,11 +45,9 @@ struct GrowthParameters {
     uint strand_count;
 };
 
-#ifdef __cplusplus
-static_assert(sizeof(GrowthFace) == 32 && sizeof(GrowthTables) == 112 && sizeof(GrowthParameters) == 32);
-}  // namespace strandlab::layout
-#else
-#undef address
-#endif
+LAYOUT_SIZE(GrowthFace, 32)
+LAYOUT_SIZE(GrowthTables, 112)
+LAYOUT_SIZE(GrowthParameters, 32)
+LAYOUT_END
 
 #endif

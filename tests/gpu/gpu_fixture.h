@@ -12,14 +12,17 @@
 
 namespace strandlab {
 
-class GpuTest : public testing::Test {
+/// One device for all tests of a suite, opened as Kind::options() says.
+template <class Kind>
+class DeviceTest : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         if (device_ || !why_none_.empty()) return;
+        DeviceOptions options = Kind::options();
         // STRANDLAB_NO_VALIDATION runs the tests on machines without the layers.
-        const bool validation = std::getenv("STRANDLAB_NO_VALIDATION") == nullptr;
+        options.validation = std::getenv("STRANDLAB_NO_VALIDATION") == nullptr;
         try {
-            device_.emplace(DeviceOptions{.selector = "", .validation = validation});
+            device_.emplace(options);
         } catch (const Error& error) {
             why_none_ = error.what();
         }
@@ -37,6 +40,11 @@ class GpuTest : public testing::Test {
     static inline std::optional<Device> device_;
     static inline std::string why_none_;
 };
+
+struct PlainDevice {
+    static DeviceOptions options() { return {}; }
+};
+using GpuTest = DeviceTest<PlainDevice>;
 
 /// What a test of a primitive may be called.
 inline std::string test_name(std::string label) {

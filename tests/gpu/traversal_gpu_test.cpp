@@ -13,37 +13,20 @@ std::vector<std::string> names() {
     return all;
 }
 
-/// Every primitive, on a device with ray queries; skipped where there is none.
-class TraversalTest : public testing::TestWithParam<std::string> {
-  protected:
-    static void SetUpTestSuite() {
-        if (device_ || !why_none_.empty()) return;
-        try {
-            device_.emplace(DeviceOptions{.selector = "",
-                                          .validation = std::getenv("STRANDLAB_NO_VALIDATION") == nullptr,
-                                          .ray_query = true,
-                                          .pipeline_statistics = true});
-        } catch (const Error& error) {
-            why_none_ = error.what();
-        }
-    }
-    void SetUp() override {
-        if (!device_) GTEST_SKIP() << why_none_;
-    }
-    void TearDown() override {
-        if (!device_) return;
-        for (const std::string& message : device_->validation_messages()) ADD_FAILURE() << message;
-    }
+struct QueryDevice {
+    static DeviceOptions options() { return {.ray_query = true, .pipeline_statistics = true}; }
+};
 
+/// Every primitive, on a device with ray queries; skipped where there is none.
+class TraversalTest : public DeviceTest<QueryDevice>, public testing::WithParamInterface<std::string> {
+  protected:
     GpuScene scene(SceneOptions options, const std::vector<SceneInstance>& instances = {{}}) const {
         std::vector<SceneModel> models;
         models.push_back({choice.primitive->build(curves, choice.options), 0});
         options.ray_extent = 10;
-        return GpuScene(*device_, *choice.primitive, std::move(models), instances, options);
+        return GpuScene(device(), *choice.primitive, std::move(models), instances, options);
     }
 
-    static inline std::optional<Device> device_;
-    static inline std::string why_none_;
     const PrimitiveChoice choice = parse_primitive(GetParam());
     const Curves curves = conformance_curves();
     Rays rays{.rays = conformance_rays(curves)};
@@ -63,7 +46,7 @@ void expect_same(const Hits& a, const Hits& b) {
 }
 
 TEST_P(TraversalTest, QueriesGiveTheAnswersOfThePipeline) {
-    if (!device_->can_query_rays()) GTEST_SKIP() << "no ray queries";
+    if (!device().can_query_rays()) GTEST_SKIP() << "no ray queries";
     const std::vector<SceneInstance> moved{
         {},
         {0, glm::mat4x3(glm::vec3(0, 1, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0.3f, 0, 0))}};
@@ -83,7 +66,7 @@ TEST_P(TraversalTest, QueriesGiveTheAnswersOfThePipeline) {
 TEST_P(TraversalTest, PicturesOfAnyShapeAreTracedWhole) {
     const GpuScene pipeline = scene({}),
                    query = scene(
-                       {.traversal = device_->can_query_rays() ? Traversal::query : Traversal::pipeline});
+                       {.traversal = device().can_query_rays() ? Traversal::query : Traversal::pipeline});
     for (const uint32_t width : {1u, 13u, 16u, 27u}) {
         Rays picture = rays;
         picture.rays.resize(picture.rays.size() / width * width);
@@ -98,7 +81,7 @@ TEST_P(TraversalTest, PicturesOfAnyShapeAreTracedWhole) {
 TEST_P(TraversalTest, AutomaticChoosesTheFasterOfWhatItMeasured) {
     const GpuScene automatic = scene({.traversal = Traversal::automatic});
     expect_same(scene({}).trace(rays).hits, automatic.trace(rays).hits);
-    if (!device_->can_query_rays()) {
+    if (!device().can_query_rays()) {
         EXPECT_EQ(automatic.cost().traversal, Traversal::pipeline);
         return;
     }
@@ -108,9 +91,9 @@ TEST_P(TraversalTest, AutomaticChoosesTheFasterOfWhatItMeasured) {
 
 TEST_P(TraversalTest, InstrumentedShadersCountLeavesAndReports) {
     for (const Traversal traversal : {Traversal::pipeline, Traversal::query}) {
-        if (traversal == Traversal::query && !device_->can_query_rays()) continue;
+        if (traversal == Traversal::query && !device().can_query_rays()) continue;
         const GpuScene traced = scene({.traversal = traversal});
-        GpuRays buffers(*device_, rays, false);
+        GpuRays buffers(device(), rays, false);
         traced.run(buffers, false);
         const Hits before = buffers.hits();
         const auto work = traced.count_work(buffers, false);
