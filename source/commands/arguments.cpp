@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "commands/usage_error.h"
 #include "primitives/choice_list.h"
 
 #include <algorithm>
@@ -21,6 +22,13 @@ Basis basis_named(const std::string& name) {
 }
 
 }  // namespace
+
+void add_write_options(CLI::App& app, WriteOptions& options) {
+    app.add_option("--points-per-curve", options.points_per_curve, ".hair: points that each curve adds")
+        ->capture_default_str()
+        ->check(whole_number(1, 64));
+    app.add_option("--write-strands", options.strands_path, ".npy: file for the strands, int32 [S,2]");
+}
 
 void ModelArguments::add_to(CLI::App& app, bool required) {
     CLI::Option* option = app.add_option(

@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "primitives/primitive.h"
 #include "scene/scene.h"
+#include "strands/files.h"
 #include "strands/strands.h"
 #include "trace/traversal.h"
 
@@ -33,6 +34,9 @@ struct ModelArguments {
     CLI::Option* radius_tip_option_ = nullptr;
 };
 
+/// Adds how a model is written.
+void add_write_options(CLI::App& app, WriteOptions& options);
+
 /// Which primitives, and how strand ends are closed.
 struct PrimitiveArguments {
     std::vector<std::string> primitives;
@@ -52,8 +56,7 @@ struct PrimitiveArguments {
 /// Of the option --bytes-per-curve.
 inline constexpr const char* bytes_per_curve_help =
     "splits as many as keep structures and records within so many bytes for each curve, where they are of "
-    "most "
-    "use, instead of splits=N (0: as the primitives say)";
+    "most use, instead of splits=N (0: as the primitives say)";
 
 /// Which device.
 struct DeviceArguments {

@@ -55,12 +55,7 @@ Command convert_command() {
                 options->model.add_to(app, true);
                 app.add_option("--strands", options->strands, "strands of an .npy model, int32 [S,2]");
                 app.add_option("-o,--output", options->output, "file to write: .hair or .npy")->required();
-                app.add_option("--points-per-curve", options->write.points_per_curve,
-                               ".hair: points that each curve adds")
-                    ->capture_default_str()
-                    ->check(whole_number(1, 64));
-                app.add_option("--write-strands", options->write.strands_path,
-                               ".npy: file for the strands, int32 [S,2]");
+                add_write_options(app, options->write);
                 return [options] { return run(*options); };
             }};
 }

@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "base/sine.h"
 #include "base/stopwatch.h"
+#include "commands/arguments.h"
 #include "commands/command.h"
 #include "commands/usage_error.h"
 #include "gpu/hair_mesh/grow_on_device.h"
@@ -196,12 +197,7 @@ Command generate_command() {
                     "--primitive", options->primitive,
                     "with --device: build this primitive's acceleration structure there, without a copy "
                     "of the curves on the host");
-                app.add_option("--points-per-curve", options->write.points_per_curve,
-                               ".hair: points that each curve adds")
-                    ->capture_default_str()
-                    ->check(whole_number(1, 64));
-                app.add_option("--write-strands", options->write.strands_path,
-                               ".npy: file for the strands, int32 [S,2]");
+                add_write_options(app, options->write);
                 return [options] { return run(*options); };
             }};
 }
