@@ -35,8 +35,8 @@ static_assert(sizeof(Leaf) == 8);
 struct Records {
     std::vector<std::byte> bytes;
     uint32_t stride = 0;  // bytes of one record; 0: none
-    /// Bytes at the end of a record that shaders can find at the beginning of the next one, where they are the
-    /// same (scene/shared_records.h); 0: none.
+    /// Bytes at the end of a record that shaders can find at the beginning of the next one, where they are
+    /// the same (scene/shared_records.h); 0: none.
     uint32_t overlap = 0;
 
     size_t size() const { return stride == 0 ? 0 : bytes.size() / stride; }

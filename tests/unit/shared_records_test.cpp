@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <span>
 #include <string>
 
 namespace strandlab {
@@ -12,8 +12,8 @@ namespace {
 /// Records of four letters, of which the last is that of the next record's beginning where it is the same.
 Records records_of(const std::string& letters) {
     Records records{{}, 4, 1};
-    records.bytes.resize(letters.size());
-    std::memcpy(records.bytes.data(), letters.data(), letters.size());
+    const auto bytes = std::as_bytes(std::span(letters));
+    records.bytes.assign(bytes.begin(), bytes.end());
     return records;
 }
 
