@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double cell_width = 104, cell_height = 20, left = 140, top = 58;
+constexpr double cell_width = 104, cell_height = 20, left = 140, top = 58, key_size = 11;
 
 /// Distinct texts in the order in which they come.
 class Names {
@@ -59,12 +59,14 @@ std::optional<Drawing> stress_chart(std::span<const Json> cells) {
     };
     for (const Json& cell : cells)
         families.place_of(text_at(cell, "family")), columns.place_of(column_of(cell));
-    const double width = left + cell_width * static_cast<double>(columns.all().size()) + 4;
+    constexpr std::string_view key =
+        "share of decisive rays answered wrongly; green holds what is documented, red does not, grey is not "
+        "judged";
+    const double width = std::max(left + cell_width * static_cast<double>(columns.all().size()) + 4,
+                                  text_width(key, key_size) + 12);
     Drawing drawing(width, top + cell_height * static_cast<double>(families.all().size()) + 6,
                     "Wrong answers among decisive rays of hard families");
-    drawing.text("key", 4, 14,
-                 "share of decisive rays answered wrongly; green holds what is documented, red does not, "
-                 "grey is not judged");
+    drawing.text("key", 4, 14, key);
     for (const std::string& column : columns.all()) {
         const double x = left + cell_width * columns.place_of(column) + 4;
         const size_t cut = column.find('\n');
