@@ -36,11 +36,11 @@ std::vector<StressPair> pairs_of(const std::string& name) {
 }
 
 /// Pairs of a family (or "structured") with the reference's answers, computed once.
-const std::vector<Answered>& answers_of(const std::string& name) {
+const std::vector<Answered>& answers_of(std::string_view name) {
     static std::map<std::string, std::vector<Answered>> cache;
-    std::vector<Answered>& all = cache[name];
+    std::vector<Answered>& all = cache[std::string(name)];
     if (!all.empty()) return all;
-    const std::vector<StressPair> pairs = pairs_of(name);
+    const std::vector<StressPair> pairs = pairs_of(std::string(name));
     all.resize(pairs.size());
     parallel_for(all.size(), [&](size_t i) {
         all[i] = {pairs[i], testing::disc_answer(to_double(pairs[i].strand[0]), pairs[i].ray)};
