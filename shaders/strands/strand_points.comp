@@ -59,6 +59,49 @@ void blend_layer(GrowthTables tables, GrowthFace face, uint index, vec4 weights,
     }
 }
 
+// What noise is between, made anew only where the strand enters the next cell.
+struct Knots {
+    bool is_known;
+    int cell;
+    vec4 below;
+    vec4 above;
+};
+
+const Knots no_knots = Knots(false, 0, vec4(0.0), vec4(0.0));
+
+// Noise that strands beside each other share, at a place along the hair; where it is across them.
+vec2 shared_noise(inout Knots knots, StrandStyle style, StrandTraits traits, float w) {
+    if (!(style.noise > 0.0)) return vec2(0.0);
+    precise float across_u = traits.u * style.noise_across;
+    precise float across_v = traits.v * style.noise_across;
+    precise float z = w * style.noise_along;
+    int cell = floor_of(z);
+    if (!knots.is_known || cell != knots.cell) {
+        knots.below = knots.is_known && cell == knots.cell + 1
+                          ? knots.above : noise_plane(traits.noise_seed, across_u, across_v, cell);
+        knots.above = noise_plane(traits.noise_seed, across_u, across_v, cell + 1);
+    }
+    knots.is_known = true;
+    knots.cell = cell;
+    precise float f = z - float(cell);
+    return noise_between(knots.below, knots.above, f);
+}
+
+// Noise of the strand alone.
+vec2 own_noise(inout Knots knots, StrandStyle style, StrandTraits traits, float w) {
+    if (!(style.frizz > 0.0)) return vec2(0.0);
+    precise float z = w * style.frizz_frequency;
+    int cell = floor_of(z);
+    if (!knots.is_known || cell != knots.cell) {
+        knots.below = noise_knot(traits.frizz_seed, cell);
+        knots.above = noise_knot(traits.frizz_seed, cell + 1);
+    }
+    knots.is_known = true;
+    knots.cell = cell;
+    precise float f = z - float(cell);
+    return noise_between(knots.below, knots.above, f);
+}
+
 void main() {
     if (gl_GlobalInvocationID.x >= parameters.strand_count) return;
     uint strand = parameters.first_strand + gl_GlobalInvocationID.x;
@@ -79,21 +122,12 @@ void main() {
     vec3 uv = root_uv(tables, face, weights);
     float tip_w = blended_w(tables, face, tables.layers, weights);
     StrandTraits traits = strand_traits(style, tables.seed, combine(face_id, index), clump_id, uv.x, uv.y, tip_w);
-    precise float noise_u = traits.u * style.noise_across;
-    precise float noise_v = traits.v * style.noise_across;
     precise float range = traits.kept * float(tables.layers);
 
-    // Layers, planes and knots are made anew only where the strand enters the next.
     Layer layer;
     uint known_layer = 0xFFFFFFFFu;
-    bool knows_shared = false;
-    bool knows_own = false;
-    int shared_cell = 0;
-    int own_cell = 0;
-    vec4 shared_below = vec4(0.0);
-    vec4 shared_above = vec4(0.0);
-    vec4 own_below = vec4(0.0);
-    vec4 own_above = vec4(0.0);
+    Knots shared_knots = no_knots;
+    Knots own_knots = no_knots;
     PointBuffer points = PointBuffer(parameters.points);
     for (uint k = 0u; k <= tables.pieces; ++k) {
         precise float part = float(k) * tables.point_step;
@@ -104,34 +138,8 @@ void main() {
         if (at != known_layer) blend_layer(tables, face, at, weights, middle_weights, is_drawn, layer);
         known_layer = at;
         float w = between(layer.w[0], layer.w[1], s);
-        vec2 shared_noise = vec2(0.0);
-        if (style.noise > 0.0) {
-            precise float z = w * style.noise_along;
-            int cell = floor_of(z);
-            if (!knows_shared || cell != shared_cell) {
-                shared_below = knows_shared && cell == shared_cell + 1
-                                   ? shared_above : noise_plane(traits.noise_seed, noise_u, noise_v, cell);
-                shared_above = noise_plane(traits.noise_seed, noise_u, noise_v, cell + 1);
-            }
-            knows_shared = true;
-            shared_cell = cell;
-            precise float f = z - float(cell);
-            shared_noise = noise_between(shared_below, shared_above, f);
-        }
-        vec2 own_noise = vec2(0.0);
-        if (style.frizz > 0.0) {
-            precise float z = w * style.frizz_frequency;
-            int cell = floor_of(z);
-            if (!knows_own || cell != own_cell) {
-                own_below = noise_knot(traits.frizz_seed, cell);
-                own_above = noise_knot(traits.frizz_seed, cell + 1);
-            }
-            knows_own = true;
-            own_cell = cell;
-            precise float f = z - float(cell);
-            own_noise = noise_between(own_below, own_above, f);
-        }
-        vec2 offset = displacement(style, traits, w, shared_noise, own_noise);
+        vec2 offset = displacement(style, traits, w, shared_noise(shared_knots, style, traits, w),
+                                   own_noise(own_knots, style, traits, w));
         float weight = is_drawn ? clump_weight(style, traits, w) : 0.0;
         vec3 own = cubic_point(layer.own[0], layer.own[1], layer.own[2], layer.own[3], s);
         vec3 middle = cubic_point(layer.middle[0], layer.middle[1], layer.middle[2], layer.middle[3], s);
