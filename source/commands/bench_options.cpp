@@ -1,6 +1,7 @@
 #include "commands/bench_options.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "commands/bench_presets.h"
 #include "commands/usage_error.h"
@@ -116,6 +117,7 @@ void BenchOptions::check() const {
     device.options();
     if (!rays.resolution.empty()) resolutions();
     check_skips(no_skips);
+    if (!scale_chart.empty()) check_appendable(scale_chart);
     const std::pair<const char*, double> limits[] = {{"--bytes-per-curve", bytes_per_curve},
                                                      {"--max-error", max_error},
                                                      {"--max-memory", max_memory},

@@ -149,6 +149,8 @@ StressRun make_run(const Options& options) {
         fail(ExitCode::usage, "--self-intersection, --watertight, --agree: pass one of them");
     if (!options.agree.empty() && options.agree != "cpu-float")
         fail(ExitCode::usage, "--agree {}: devices are compared with cpu-float", options.agree);
+    for (const std::string& path : {options.json, options.heat_map})
+        if (!path.empty()) check_appendable(path);  // before a night of work, not after it
     StressRun run;
     run.families = chosen_families(options.families);
     run.choices = options.primitives.choices();

@@ -105,6 +105,9 @@ TEST_F(StressTest, SaysWhatIsWrongWithItsOptions) {
     expect_failure(run({"stress", "--self-intersection", "--device", "cpu-double"}), 2, {"cpu-double"});
     expect_failure(run({"stress", "--family", "gentel"}), 2, {"gentel", "gentle"});
     expect_failure(run({"stress", "--pairs", "0"}), 2, {"--pairs 0"});
+    for (const char* option : {"--json", "--heat-map"})
+        expect_failure(run({"stress", "--pairs", "1e15", option, "no/such/folder/x"}), 5,
+                       {"no/such/folder/x"});
 }
 
 }  // namespace
