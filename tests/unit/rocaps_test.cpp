@@ -65,14 +65,15 @@ std::vector<StressPair> pairs_of(const std::string& name) {
     return pairs;
 }
 
-const std::vector<Answered>& answered_family(const std::string& name, const std::string& caps = "round") {
+const std::vector<Answered>& answered_family(std::string_view name, std::string_view caps = "round") {
     static std::map<std::string, std::vector<Answered>> cache;
-    std::vector<Answered>& all = cache[name + "/" + caps];
+    std::vector<Answered>& all = cache[std::string(name) + "/" + std::string(caps)];
     if (all.empty()) {
-        const std::vector<StressPair> pairs = pairs_of(name);
+        const std::vector<StressPair> pairs = pairs_of(std::string(name));
         all.resize(pairs.size());
-        parallel_for(all.size(),
-                     [&](size_t i) { all[i] = answer(pairs[i], one_strand({pairs[i].strand[0]}), caps); });
+        parallel_for(all.size(), [&](size_t i) {
+            all[i] = answer(pairs[i], one_strand({pairs[i].strand[0]}), std::string(caps));
+        });
     }
     return all;
 }
