@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 namespace strandlab {
@@ -162,6 +163,16 @@ std::string to_string(const Resolution& resolution) {
     return fmt::format("{}x{}", resolution.width, resolution.height);
 }
 
+/// The --rays argument that makes a set again.
+static std::string ray_argument(const RayFacts& rays) {
+    std::string set = rays.kind, suffix;
+    if (rays.shuffled) suffix += " shuffled";
+    if (rays.as_shadow) suffix += " shadow";
+    if (rays.kind == "file") set = rays.name.substr(0, rays.name.size() - suffix.size());
+    std::replace(suffix.begin(), suffix.end(), ' ', ':');
+    return set + suffix;
+}
+
 std::string reproducing_command(const BenchOptions& options, const ResultRow& row) {
     CommandText command("strandlab bench");
     command.add(row.model.spec);
@@ -172,10 +183,7 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
         command.add("--baseline-primitive", row.ratio->baseline);
     }
     if (!options.primitives.caps.empty()) command.add("--caps", options.primitives.caps);
-    std::string set = row.rays.kind == "file" ? row.rays.name : row.rays.kind;
-    if (row.rays.kind == "file" && row.rays.shuffled)
-        set.resize(set.size() - std::string_view(" shuffled").size());
-    command.add("--rays", set + (row.rays.shuffled ? ":shuffled" : ""));
+    command.add("--rays", ray_argument(row.rays));
     command.add("--resolution", row.rays.resolution);
     if (!options.rays.camera.empty()) command.add("--camera", options.rays.camera);
     command.add("--seed", std::to_string(row.seed));

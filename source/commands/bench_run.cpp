@@ -41,6 +41,7 @@ RayFacts ray_facts(const MeasuredRays& rays, uint64_t seed, const std::string& r
     RayFacts facts = facts_of(rays.rays, rays.is_picture ? 1 : 0);
     facts.kind = rays.kind;
     facts.shuffled = rays.shuffled;
+    facts.as_shadow = rays.as_shadow;
     facts.seed = seed;
     facts.camera = rays.camera;
     facts.resolution = resolution;

@@ -16,20 +16,32 @@ namespace {
 /// One --rays argument, taken apart.
 struct RayName {
     std::string name;  // of a set or file
-    bool is_file = false, shuffled = false;
+    bool is_file = false, shuffled = false, as_shadow = false;
 
     RayName(const std::string& text, bool shuffle_all) : name(text), shuffled(shuffle_all) {
-        constexpr std::string_view suffix = ":shuffled";
-        if (name.ends_with(suffix)) {
-            name.resize(name.size() - suffix.size());
-            shuffled = true;
+        while (take(":shuffled", shuffled) || take(":shadow", as_shadow)) {
         }
         is_file = name.size() > 4 && name.ends_with(".npy");
+    }
+
+    /// What it asks for beyond its rays, as results name it: " shuffled shadow".
+    std::string suffix() const {
+        return std::string(shuffled ? " shuffled" : "") + (as_shadow ? " shadow" : "");
+    }
+
+  private:
+    bool take(std::string_view suffix, bool& asked) {
+        if (!name.ends_with(suffix)) return false;
+        name.resize(name.size() - suffix.size());
+        asked = true;
+        return true;
     }
 };
 
 std::string set_help() {
-    std::string text = "ray set, repeatable, or FILE.npy (float32 [M,8]); NAME:shuffled is in random order;";
+    std::string text =
+        "ray set, repeatable, or FILE.npy (float32 [M,8]); NAME:shuffled is in random order, "
+        "NAME:shadow traced up to any hit;";
     for (const RaySetInfo& set : ray_sets()) text += fmt::format(" {} ({});", set.name, set.help);
     text.pop_back();
     return text;
@@ -62,8 +74,7 @@ std::vector<std::string> RayArguments::set_names() const {
     std::vector<std::string> all;
     for (const std::string& text : names) {
         const RayName ray(text, shuffle);
-        all.push_back(ray.is_file ? ray.name : std::string(ray_set_named(ray.name).name));
-        if (ray.shuffled) all.back() += " shuffled";
+        all.push_back((ray.is_file ? ray.name : std::string(ray_set_named(ray.name).name)) + ray.suffix());
     }
     return all;
 }
@@ -90,6 +101,12 @@ class RaySets::Maker {
         const RayName name(text, arguments_.shuffle);
         MeasuredRays set = name.is_file ? from_file(name) : from_table(name);
         set.shuffled = name.shuffled;
+        set.as_shadow = name.as_shadow;
+        if (name.as_shadow) {
+            set.shadow = true;
+            set.is_picture = false;
+            set.rays.name += " shadow";
+        }
         cut(set.rays);
         set.sample = error_sample(set.rays.rays.size(), arguments_.error_rays);
         set.sample_rays = selected(set.rays, set.sample);

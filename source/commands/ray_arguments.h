@@ -15,7 +15,7 @@ namespace strandlab {
 
 /// Which rays.
 struct RayArguments {
-    std::vector<std::string> names;  // ray sets or .npy files; ":shuffled" behind one: in random order
+    std::vector<std::string> names;  // ray sets or .npy files; behind one ":shuffled", ":shadow"
     std::string resolution;          // empty: by device
     std::string camera;
     uint64_t seed = 1;

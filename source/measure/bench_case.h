@@ -25,6 +25,7 @@ struct MeasuredRays {
     std::string kind;     // name of the set before it was shuffled, or "file"
     bool shadow = false;  // only hit or miss counts
     bool shuffled = false;
+    bool as_shadow = false;        // shadow because the request says so, not by the kind of set
     bool is_picture = false;       // row by row, every pixel one ray
     std::string camera;            // that it was made with; empty: none
     std::vector<uint32_t> sample;  // indices of the rays below

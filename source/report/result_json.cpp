@@ -135,6 +135,7 @@ Json to_json(const RayFacts& rays) {
     return {{"name", rays.name},
             {"kind", rays.kind},
             {"shuffled", rays.shuffled},
+            {"as_shadow", rays.as_shadow},
             {"seed", rays.seed},
             {"count", rays.count},
             {"hash", hash_text(rays.hash)},

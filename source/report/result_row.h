@@ -40,6 +40,7 @@ struct RayFacts {
     uint32_t width = 0, height = 0, samples = 0;
     std::string kind = {};  // of the named sets, or "file"
     bool shuffled = false;
+    bool as_shadow = false;  // traced up to any hit, whatever the kind
     uint64_t seed = 0;
     std::string camera = {};      // as --camera reads it; empty: the set comes from no picture
     std::string resolution = {};  // of the sweep, also where the set is no picture

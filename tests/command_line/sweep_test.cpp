@@ -43,15 +43,11 @@ TEST_F(SweepTest, RunsEveryCombination) {
 TEST_F(SweepTest, EveryRowNamesTheCommandThatMakesItAgain) {
     write_curves(path("it's.npy"),
                  {line_curve({0, 0, 0}, {0, 1, 0}, 0.1f), line_curve({1, 0, 0}, {1, 1, 0}, 0.1f)});
-    expect_success(run({"bench",           "it's.npy",
-                        "--device",        "cpu-float",
-                        "--resolution",    "16x9",
-                        "--rays",          "diffuse:shuffled",
-                        "--primitive",     "rocaps:splits=1,2",
-                        "--caps",          "open",
-                        "--repeat",        "1",
-                        "--json",          "a.jsonl",
-                        "--seed",          "5",
+    expect_success(run({"bench",           "it's.npy",       "--device",    "cpu-float",
+                        "--resolution",    "16x9",           "--rays",      "diffuse:shuffled",
+                        "--rays",          "primary:shadow", "--primitive", "rocaps:splits=1,2",
+                        "--caps",          "open",           "--repeat",    "1",
+                        "--json",          "a.jsonl",        "--seed",      "5",
                         "--no-compaction", "--no-embree"}));
     for (const Json& row : rows("a.jsonl")) {
         const std::string command = row.at("reproduce");
@@ -76,8 +72,8 @@ TEST_F(SweepTest, MakesEveryKindOfRaysOnce) {
                         "--primitive",  "lss",
                         "--primitive",  "rocaps",
                         "--no-embree"};
-    for (const char* set :
-         {"primary", "primary:shuffled", "shadow", "diffuse", "ambient", "grazing", "interior"})
+    for (const char* set : {"primary", "primary:shuffled", "primary:shadow", "shadow", "diffuse", "ambient",
+                            "grazing", "interior"})
         arguments.insert(arguments.end(), {"--rays", set});
     expect_success(run(arguments));
     std::map<std::string, std::set<std::string>> hashes;
@@ -86,7 +82,8 @@ TEST_F(SweepTest, MakesEveryKindOfRaysOnce) {
         hashes[rays.at("name")].insert(rays.at("hash").get<std::string>());
         EXPECT_EQ(rays.at("seed"), 1);
         EXPECT_EQ(rays.at("shuffled"), rays.at("name") == "primary shuffled");
-        const bool hit_or_miss = rays.at("name") == "shadow" || rays.at("name") == "ambient";
+        const bool hit_or_miss = rays.at("name") == "shadow" || rays.at("name") == "ambient" ||
+                                 rays.at("name") == "primary shadow";
         EXPECT_EQ(row.at("model_error").at("hit_or_miss_only"), hit_or_miss);
         // Round hair by exact intersectors: nothing decisive is wrong.
         if (row.at("primitive").at("name") == "rocaps") {
@@ -94,7 +91,8 @@ TEST_F(SweepTest, MakesEveryKindOfRaysOnce) {
             EXPECT_EQ(row.at("model_error").at("decisive").at("false_miss").at("count"), 0) << rays;
         }
     }
-    EXPECT_EQ(hashes.size(), 7u);
+    EXPECT_EQ(hashes.size(), 8u);
+    EXPECT_EQ(hashes.at("primary"), hashes.at("primary shadow"));
     for (const auto& [name, all] : hashes) EXPECT_EQ(all.size(), 1u) << name;  // the same for both primitives
 }
 

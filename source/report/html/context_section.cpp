@@ -98,6 +98,7 @@ std::string context_section(const PageData& data) {
                         {"resolution", "rays.resolution"},
                         {"samples", "rays.samples"},
                         {"shuffled", "rays.shuffled"},
+                        {"as shadow rays", "rays.as_shadow"},
                         {"seed", "rays.seed"},
                         {"camera", "rays.camera"},
                         {"hash", "rays.hash"}}) +
