@@ -108,9 +108,8 @@ FUNCTION bool lss_intersect(real3 origin, real3 direction, real tmin, real tmax,
                             OUT(real) t, OUT(real) u, OUT(real3) normal) {
     real3 first = real3(start);
     real3 last = real3(end);
-    PieceView view;
-    if (passes_straight(origin, direction, start, end, view) && early_out) return false;
-    RayFrame frame = ray_frame_at(origin, direction, first, middle_parameter(direction, view));
+    if (early_out && passes_straight(origin, direction, start, end)) return false;
+    RayFrame frame = make_ray_frame(origin, direction, first, (last - first) * real(0.5));
     real3 from = to_frame(frame, first);
     real3 to = to_frame(frame, last);
     real3 largest = max(abs(from), abs(to));

@@ -193,27 +193,6 @@ FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep foun
     return hit;
 }
 
-// For a ray that crosses the piece gently (piece_test.h) one start does, at the parameter v where it is
-// nearest to the chord: an iteration that ends on a phantom, or leaves the piece, is a miss. False: not
-// converged, search.
-FUNCTION bool prhi_gentle(PrhiCubic cubic, INOUT(real) v, OUT(bool) hit, OUT(PrhiPoint) p,
-                          OUT(PrhiStep) found) {
-    hit = false;
-    real tolerance = max(real(400) * real_epsilon, real(1e-9));  // no polish follows
-    for (int i = 0; i < 8; ++i) {
-        COUNT_ITERATION
-        p = prhi_point(cubic, v);
-        found = prhi_robust_step(p.c, p.d);
-        real next = clamp(v + found.dv, real(0), real(1));
-        if (abs(found.dv) < tolerance || next == v) {
-            hit = abs(found.dv) < tolerance && found.enters;
-            return true;
-        }
-        v = next;
-    }
-    return false;
-}
-
 // Iterates from the end that is nearer along the ray and, when that fails, from the other. Hits in front of
 // z_min are failures. low and high bound v.
 FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
@@ -268,32 +247,12 @@ FUNCTION bool prhi_search(PrhiCubic cubic, real low, real high, real z_min, uint
     return false;
 }
 
-// Whether one start will do.
-FUNCTION bool prhi_is_gentle(PrhiCubic c) {
-    real change = abs(c.p3.w - c.p0.w) + abs(c.p2.w - c.p1.w);
-    return crosses_gently(real3(c.p3) - real3(c.p0),
-                          bend_bound(real3(c.p0), real3(c.p1), real3(c.p2), real3(c.p3)),
-                          max(c.p0.w, c.p3.w) + change, change);
-}
-
 // The first entry through the side of the tube.
 FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint iterations, bool robust,
-                        bool gentle_first, OUT(PrhiHit) hit) {
+                        OUT(PrhiHit) hit) {
     real v;
     PrhiPoint p;
     PrhiStep found;
-    if (gentle_first && prhi_is_gentle(cubic)) {
-        real x = cubic.p3.x - cubic.p0.x;
-        real y = cubic.p3.y - cubic.p0.y;
-        v = clamp(-(cubic.p0.x * x + cubic.p0.y * y) / (x * x + y * y), real(0), real(1));
-        bool is_hit;
-        if (prhi_gentle(cubic, v, is_hit, p, found)) {
-            hit.v = v + found.dv;
-            hit.z = p.c.z + found.s;
-            hit.normal = prhi_normal(p, found.s, true);
-            return is_hit && hit.z >= z_min;
-        }
-    }
     if (!prhi_search(cubic, low, high, z_min, iterations, robust, v, p, found)) return false;
     if (robust) {
         hit = prhi_polish(cubic, v, p, found);
@@ -335,13 +294,12 @@ FUNCTION bool prhi_stands_still(real4 at, real4 near, real4 middle, real4 far) {
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
 FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
                              real4 p2, real4 p3, real first_u, real last_u, bool robust, uint iterations,
-                             bool cap_start, bool cap_end, bool early_out, bool gentle_first, OUT(real) t,
-                             OUT(real) u, OUT(real3) normal) {
-    PieceView view;
+                             bool cap_start, bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     RayFrame frame;
     if (robust) {
-        if (passes_piece(origin, direction, p0, p1, p2, p3, first_u, last_u, view) && early_out) return false;
-        frame = ray_frame_at(origin, direction, real3(p0), middle_parameter(direction, view));
+        CurvePowers powers = curve_powers(p1 - p0, p2 - p0, p3 - p0);
+        real3 middle = real3(curve_offset(powers, real(0.5) * (first_u + last_u)));
+        frame = make_ray_frame(origin, direction, real3(p0), middle);
     } else {
         // The published frame has its origin at the ray's: everything is relative to it, near or far.
         frame = make_ray_frame(origin, direction, origin, real3(real(0)));
@@ -352,7 +310,7 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     cubic.p2 = real4(to_frame(frame, real3(p2)), p2.w);
     cubic.p3 = real4(to_frame(frame, real3(p3)), p3.w);
     if (last_u - first_u < real(1)) cubic = prhi_part(cubic, first_u, last_u);
-    if (!(robust && early_out) && prhi_passes(cubic)) return false;
+    if (prhi_passes(cubic)) return false;
 
     real low = real(0);
     real high = real(1);
@@ -364,7 +322,7 @@ FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax
     real z_min = (tmin - frame.t_foot) / frame.inv_length;
     PrhiHit hit;
     PrhiHit other;
-    bool found = prhi_side(cubic, low, high, z_min, iterations, robust, robust && gentle_first, hit);
+    bool found = prhi_side(cubic, low, high, z_min, iterations, robust, hit);
     if (cap_start) {
         real3 outward = prhi_end_direction(cubic.p0, cubic.p1, cubic.p2, cubic.p3);
         if (prhi_cap(cubic.p0, outward, real(0), z_min, other) && !(found && hit.z <= other.z)) {

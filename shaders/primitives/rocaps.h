@@ -69,7 +69,7 @@ FUNCTION real first_root_bound(real b0, real b1, real b2, real b3) {
         real s = real(0);
         real value = b0;
         real slope = c1;
-        for (int i = 0; i < 3; ++i) {
+        ROLLED for (int i = 0; i < 3; ++i) {
             s = slope < real(0) ? s - value / slope : real(2);  // once it rises, it is positive up to `end`
             if (!(s < end)) break;
             value = ((c3 * s + c2) * s + c1) * s + b0;

@@ -32,28 +32,20 @@ FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
     return -h / abs(h_slope);
 }
 
-// u starts at the guess. Depths and positions in the frame of the ray. An entry that lies beyond the piece
-// [a, b] at an end where the curve goes on is the neighbouring piece's, and a miss here. False: not
+// Depths and positions in the frame of the ray. u goes to the parameter of the entry. One that lies beyond the
+// piece [a, b] at an end where the curve goes on is the neighbouring piece's, and a miss here. False: not
 // converged, search.
-FUNCTION bool gentle_entry(FrameCubic c, real a, real b, real z_min, bool starts_before, INOUT(real) u,
-                           OUT(bool) hit, OUT(real) z, OUT(real3) normal) {
+FUNCTION bool gentle_entry(RayJet jet, real a, real b, real z_min, bool starts_before, OUT(bool) hit,
+                           OUT(real) u, OUT(real) z, OUT(real3) normal) {
     hit = false;
+    u = jet.u;
     real margin = real(1e-4) * (b - a);
-    real4 d0 = (c.p1 - c.p0) * real(3);
-    real4 d1 = (c.p2 - c.p1) * real(3);
-    real4 d2 = (c.p3 - c.p2) * real(3);
-    // Coefficients of powers of u: the curve's start is near the ray, as all of it.
-    real4 k2 = d1 - d0;
-    real4 third_difference = (d2 - d1) - (d1 - d0);
-    // Precise, or devices move the factor elsewhere, and rays past the silhouette tell.
-    PRECISE real4 k3 = third_difference * real(1.0 / 3.0);
-    for (int i = 0; i < 8; ++i) {
+    ROLLED for (int i = 0; i < 8; ++i) {
         COUNT_ITERATION
-        real4 p = c.p0 + (d0 + (k2 + k3 * u) * u) * u;
-        real4 d = d0 + (k2 * real(2) + third_difference * u) * u;
-        real4 dd = (k2 + third_difference * u) * real(2);
+        real4 p = jet_point(jet, u - jet.u);
+        real4 d = jet_slope(jet, u - jet.u);
         real inside = p.w * p.w - (p.x * p.x + p.y * p.y);
-        real wanted = u + verified_step(p, d, dd, inside);
+        real wanted = u + verified_step(p, d, jet_bend(jet, u - jet.u), inside);
         real next = clamp(wanted, a, b);
         real moved = next - u;
         // In float within a hundredth of the way to the silhouette: after that step the depth is right to a
@@ -86,30 +78,22 @@ FUNCTION bool rocaps_gentle(real3 origin, real3 direction, real tmin, real tmax,
     PieceView view;
     bool passes = passes_piece(origin, direction, c0, c1, c2, c3, a, b, view);
     if (early_out && passes) return true;
-    if (!gentle_first || open_end) return false;
-    RayFrame frame = ray_frame_at(origin, direction, real3(c0), middle_parameter(direction, view));
-    FrameCubic c;
-    c.p0 = real4(to_frame(frame, real3(c0)), c0.w);
-    c.p1 = real4(to_frame(frame, real3(c1)), c1.w);
-    c.p2 = real4(to_frame(frame, real3(c2)), c2.w);
-    c.p3 = real4(to_frame(frame, real3(c3)), c3.w);
-    real3 start = real3(c.p0) + turn_to_frame(frame, view.start);
-    real3 chord = turn_to_frame(frame, view.chord);
-    real width = b - a;
-    real bend_squared =
-        bend_bound(real3(c.p0), real3(c.p1), real3(c.p2), real3(c.p3)) * (width * width) * (width * width);
-    real radius = max(max(c.p0.w, c.p1.w), max(c.p2.w, c.p3.w));
-    real change = radius - min(min(c.p0.w, c.p1.w), min(c.p2.w, c.p3.w));
-    real lateral = chord.x * chord.x + chord.y * chord.y;
-    // In scenes of nanometres products of four lengths would vanish: the search scales them.
-    if (!(lateral > real(1e-10)) || !crosses_gently(chord, bend_squared, radius, change * width * real(3)))
+    CurvePowers powers = curve_powers(view.edge1, view.edge2, view.edge3);
+    real thickest;
+    real sagitta_squared;
+    if (!gentle_first || open_end ||
+        !crosses_gently(direction, view, powers, b - a, c0.w, thickest, sagitta_squared))
         return false;
+    real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
+    RayFrame frame = make_ray_frame(origin, direction, real3(c0), middle);
+    RayJet jet = ray_jet(frame, direction, view, powers, c0.w, middle, a, b);
+    // In scenes of nanometres products of four lengths would vanish: the search scales them.
+    real width = b - a;
+    if (!((jet.first.x * jet.first.x + jet.first.y * jet.first.y) * width * width > real(1e-10))) return false;
     real z_min = (tmin - frame.t_foot) / frame.inv_length;
-    bool starts_before = z_min < min(start.z, start.z + chord.z) - radius - sqrt(bend_squared);
-    real along = -(start.x * chord.x + start.y * chord.y) / lateral;
-    u = a + width * clamp(along, real(0), real(1));
+    bool starts_before = z_min < jet.point.z - width * abs(jet.first.z) - thickest - sqrt(sagitta_squared);
     real z;
-    if (!gentle_entry(c, a, b, z_min, starts_before, u, hit, z, normal)) return false;
+    if (!gentle_entry(jet, a, b, z_min, starts_before, hit, u, z, normal)) return false;
     if (!hit) return true;
     normal = from_frame(frame, normal);
     t = ray_parameter(frame, z);

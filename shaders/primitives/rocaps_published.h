@@ -79,7 +79,7 @@ FUNCTION bool published_plane_separates(FrameCubic c, real a, real b) {
 FUNCTION real published_foot(FrameCubic c, real z, real u, real first_step) {
     real previous_u = u;
     real previous = real(0);
-    for (int i = 0; i < 4; ++i) {
+    ROLLED for (int i = 0; i < 4; ++i) {
         real4 d;
         real4 dd;
         real4 p = cubic_jet(c, u, d, dd);
@@ -134,7 +134,7 @@ FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tm
     bool found = false;
     real start = a;
     // A capsule is at least 0.002 long.
-    for (int i = 0; i < 512; ++i) {
+    ROLLED for (int i = 0; i < 512; ++i) {
         real4 p = cubic_point(c, start);
         real distance = axis_distance(p);
         if (distance > p.w) {

@@ -8,7 +8,7 @@
 FUNCTION void refine_entry(FrameCubic c, real low, real high, real longest, real u, INOUT(real) z,
                            INOUT(real) best_u) {
     real previous = real(0);
-    for (int i = 0; i < 5; ++i) {
+    ROLLED for (int i = 0; i < 5; ++i) {
         COUNT_ITERATION
         real4 d;
         real4 dd;
@@ -76,7 +76,7 @@ FUNCTION real gap_between(FrameCubic c, real a, real b) {
     if (!(h_a > real(0) && h_b < real(0)) || axis_distance(p) > p.w) return b;
     real low = a;
     real high = b;
-    for (int i = 0; i < 4; ++i) {
+    ROLLED for (int i = 0; i < 4; ++i) {
         real u = (low * h_b - high * h_a) / (h_b - h_a);
         p = cubic_jet(c, u, d, dd);
         if (axis_distance(p) > p.w) return u;
@@ -108,7 +108,7 @@ FUNCTION bool verified_search(FrameCubic c, VerifiedSearch search, INOUT(real) z
     real4 p = cubic_point(c, start);
     u = start;
     // A capsule is at least 2^-12 long.
-    for (int i = 0; i < 4100; ++i) {
+    ROLLED for (int i = 0; i < 4100; ++i) {
         real distance = axis_distance(p);
         real inside = (p.w - distance) * (p.w + distance);
         if (inside >= real(0) && p.w > real(0) && p.z - sqrt(inside) < run_z) {
@@ -165,7 +165,7 @@ FUNCTION bool polish_entry(FrameCubic c, VerifiedSearch search, real a, real b, 
     real margin = real(1e-4) * (b - a);
     real3 best = real3(real(0));
     real best_u = u;
-    for (int i = 0; i < 4; ++i) {
+    ROLLED for (int i = 0; i < 4; ++i) {
         real4 d;
         real4 dd;
         real4 p = cubic_jet(c, u, d, dd);

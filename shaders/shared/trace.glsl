@@ -8,6 +8,7 @@
 #else
 #extension GL_EXT_ray_tracing : require
 #endif
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 

@@ -19,6 +19,7 @@
 #define INOUT(T) T&
 #define PRECISE
 #define FUNCTION static inline
+#define ROLLED
 // One iteration of a search. Kernels that can be asked for their iterations have a second template parameter
 // `bool counts`; without it the line is gone.
 #define COUNT_ITERATION \

@@ -23,6 +23,7 @@ struct BottomLevelInput {
     bool opaque = true;
     bool compact = true;
     bool low_memory = false;  // smaller, and slower to trace, where the driver can
+    double warm_up_ms = 0;  // device time to spend on the same build before it is timed: an idle GPU is slow
 
     size_t leaf_count() const {
         if (device_boxes != 0) return device_box_count;

@@ -13,7 +13,9 @@ struct PrhiKernel {
     STRANDLAB_KERNEL_TYPES
 #include "shaders/shared/piece_test.h"
 #include "shaders/shared/ray_frame.h"
+#include "shaders/shared/ray_jet.h"
 #include "shaders/primitives/prhi.h"
+#include "shaders/primitives/prhi_gentle.h"
 };
 
 }  // namespace kernels
@@ -27,17 +29,25 @@ constexpr double quarter_turn = 1.5707963267948966;
 template <class Real, bool counts = false>
 bool intersect(const Geometry& geometry, size_t index, const Ray& ray, Real tmax, LeafHit<Real>& hit) {
     using Kernel = kernels::PrhiKernel<Real, counts>;
-    using Real3 = glm::vec<3, Real>;
     using Real4 = glm::vec<4, Real>;
     const Leaf leaf = geometry.leaves[index];
     const Curve& c = curve_record(geometry, leaf);
+    const glm::vec<3, Real> origin(ray.origin), direction(ray.direction);
+    const Real4 p0(c[0]), p1(c[1]), p2(c[2]), p3(c[3]);
+    const Real first_u = Real(leaf.piece()) / Real(leaf.pieces());
+    const Real last_u = Real(leaf.piece() + 1) / Real(leaf.pieces());
     const bool flat = geometry.constant(flat_ends) != 0;
-    return Kernel::prhi_intersect(
-        Real3(ray.origin), Real3(ray.direction), Real(ray.tmin), tmax, Real4(c[0]), Real4(c[1]), Real4(c[2]),
-        Real4(c[3]), Real(leaf.piece()) / Real(leaf.pieces()), Real(leaf.piece() + 1) / Real(leaf.pieces()),
-        geometry.constant(robust) != 0, geometry.constant(iterations),
-        flat && (leaf.flags() & Leaf::begins_strand), flat && (leaf.flags() & Leaf::ends_strand), true, true,
-        hit.t, hit.u, hit.normal);
+    const bool cap_start = flat && (leaf.flags() & Leaf::begins_strand);
+    const bool cap_end = flat && (leaf.flags() & Leaf::ends_strand);
+    const bool is_robust = geometry.constant(robust) != 0;
+    bool found = false;
+    if (is_robust &&
+        Kernel::prhi_at_once(origin, direction, Real(ray.tmin), tmax, p0, p1, p2, p3, first_u, last_u, true,
+                             !cap_start && !cap_end, found, hit.t, hit.u, hit.normal))
+        return found;
+    return Kernel::prhi_intersect(origin, direction, Real(ray.tmin), tmax, p0, p1, p2, p3, first_u, last_u,
+                                  is_robust, geometry.constant(iterations), cap_start, cap_end, hit.t, hit.u,
+                                  hit.normal);
 }
 
 bool counted(const Geometry& geometry, size_t index, const Ray& ray, float tmax, LeafHit<float>& hit,

@@ -16,6 +16,7 @@ struct RocapsKernel {
     STRANDLAB_KERNEL_TYPES
 #include "shaders/shared/piece_test.h"
 #include "shaders/shared/ray_frame.h"
+#include "shaders/shared/ray_jet.h"
 #include "shaders/primitives/lss.h"
 #include "shaders/primitives/rocaps.h"
 #include "shaders/primitives/rocaps_gentle.h"

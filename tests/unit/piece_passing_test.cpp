@@ -124,17 +124,12 @@ TEST(GentleCrossing, MeetsThePieceOnce) {
     int gentle = 0, met = 0;
     for (uint64_t i = 0; i < 200000; ++i) {
         const Case c = random_case(i);
-        const glm::dvec3 d = glm::normalize(glm::dvec3(c.direction));
-        const glm::dvec3 chord = glm::dvec3(at(c.curve, c.b) - at(c.curve, c.a));
-        const glm::dvec3 across = chord - d * glm::dot(chord, d);
-        const double width = c.b - c.a;
-        const float bend = Kernel::bend_bound(glm::vec3(c.rounded[0]), glm::vec3(c.rounded[1]),
-                                              glm::vec3(c.rounded[2]), glm::vec3(c.rounded[3]));
-        double low = 1e300, high = 0;
-        for (const glm::dvec4& p : c.curve) low = std::min(low, p.w), high = std::max(high, p.w);
-        const glm::vec3 in_frame{float(glm::length(across)), 0, float(glm::dot(chord, d))};
-        if (!Kernel::crosses_gently(in_frame, bend * float(std::pow(width, 4)), float(high),
-                                    float(3 * width * (high - low))))
+        Kernel::PieceView view;
+        passes(c, view);
+        float thickest = 0, sagitta_squared = 0;
+        if (!Kernel::crosses_gently(c.direction, view,
+                                    Kernel::curve_powers(view.edge1, view.edge2, view.edge3),
+                                    float(c.b - c.a), c.rounded[0].w, thickest, sagitta_squared))
             continue;
         ++gentle;
         const Depth depth = sampled(c, 200);
