@@ -183,7 +183,7 @@ void GpuScene::add_model(const SceneModel& model, uint32_t index, const SceneOpt
                                                 : input_of(geometry, boxes, first, count));
         input.compact = options.compact;
         input.low_memory = options.low_memory;
-        input.warm_up_ms = options.build_warm_up_ms;
+        if (first_part == 0 && first == 0) input.warm_up_ms = options.build_warm_up_ms;
         input.opaque = curves_of_a_ray_ == 0;
         parts_.push_back({{}, index, static_cast<uint32_t>(first)});
         ++cost_.structure_count;

@@ -47,7 +47,7 @@ struct SceneOptions {
     Order order = Order::automatic;
     bool compact = true;
     bool low_memory = false;      // structures smaller, and slower to trace, where the driver can
-    double build_warm_up_ms = 0;  // device time to spend on each build before it is timed
+    double build_warm_up_ms = 0;  // device time to spend on the first build before builds are timed
     /// Largest coordinate of any ray origin: boxes are padded for it.
     float ray_extent = 1.0f;
     /// Normals will be asked for: keeps what they need.
