@@ -55,7 +55,8 @@ class Reader {
         std::string_view line(text_.data() + offset_, end - offset_);
         offset_ = end + 1;
         ++line_;
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        // All of them, or a comment would lose one with every reading.
+        while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         return line;
     }
 
