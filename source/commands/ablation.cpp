@@ -8,6 +8,7 @@
 #include "measure/statistics.h"
 #include "primitives/curved_pieces.h"
 #include "report/table.h"
+#include "trace/culling.h"
 #include "trace/embree_reference.h"
 #include "trace/skips.h"
 
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <optional>
 
 namespace strandlab {
 namespace {
@@ -33,12 +35,30 @@ struct StartTimes {
 struct Variant {
     std::string name;
     PreparedCase prepared;
-    Hits hits;
+    std::vector<std::string> taken;  // skips
+    double cull_ms = 0;
+    Hits hits = {};
+
+    /// Host and device time from curves to a scene that can be traced, but for the pipeline.
+    double ready_ms() const {
+        const SceneCost& cost = prepared.traced->cost();
+        return cull_ms + prepared.geometry_ms + cost.order_ms + cost.builds.upload_ms + cost.builds.build_ms +
+               cost.builds.compaction_ms;
+    }
 };
 
+Variant make_variant(std::string name, const CaseInput& input, const PrimitiveChoice& choice) {
+    Variant variant{std::move(name), prepare_case(input, choice), {}, 0, {}};
+    variant.taken = variant.prepared.traced->cost().skipped;
+    if (input.culled == nullptr) return variant;
+    variant.cull_ms = input.culled->milliseconds;
+    if (input.culled->out_of_reach.strands > 0) variant.taken.emplace_back(reach_skip);
+    if (input.culled->too_small.strands > 0) variant.taken.emplace_back(detail_skip);
+    return variant;
+}
+
 bool takes(const Variant& variant, std::string_view skip) {
-    const std::vector<std::string>& taken = variant.prepared.traced->cost().skipped;
-    return std::find(taken.begin(), taken.end(), skip) != taken.end();
+    return std::find(variant.taken.begin(), variant.taken.end(), skip) != variant.taken.end();
 }
 
 /// The thinnest radius that is not 0: distances are told apart by a hundredth of it.
@@ -83,20 +103,37 @@ Differences shadow_differences(const Hits& a, const Hits& b) {
     return count;
 }
 
-std::vector<Variant> make_variants(const CaseInput& input, const PrimitiveChoice& choice, bool measure) {
+/// The scene without one part of the culling.
+Variant make_culling_variant(std::string_view skip, const CaseInput& input, const PrimitiveChoice& choice,
+                             Culling culling, const Rays& rays) {
+    if (skip == reach_skip) culling.reach = false;
+    if (skip == detail_skip) culling.detail = 0;
+    CaseInput other = input;
+    std::optional<CulledScene> culled;
+    if (culling.is_any()) culled = cull(input.scene, culling, rays.rays);
+    other.culled = culled ? &*culled : nullptr;
+    return make_variant("without " + std::string(skip), other, choice);
+}
+
+std::vector<Variant> make_variants(const CaseInput& input, const PrimitiveChoice& choice,
+                                   const Culling& culling, const Rays& rays, bool measure) {
     std::vector<Variant> variants;
-    variants.push_back({"as it is", prepare_case(input, choice), {}});
+    variants.push_back(make_variant("as it is", input, choice));
     if (!measure) return variants;
     CaseInput other = input;
     for (const Skip& skip : skips()) {
         if (!takes(variants.front(), skip.name)) continue;
+        if (skip.name == reach_skip || skip.name == detail_skip) {
+            variants.push_back(make_culling_variant(skip.name, input, choice, culling, rays));
+            continue;
+        }
         other.options.no_skips = {std::string(skip.name)};
-        variants.push_back({"without " + std::string(skip.name), prepare_case(other, choice), {}});
+        variants.push_back(make_variant("without " + std::string(skip.name), other, choice));
     }
     if (input.device.gpu() != nullptr && GpuScene::reorders(input.device.info(), input.options)) {
         other.options = input.options;
         other.options.order = SceneOptions::Order::as_built;
-        variants.push_back({"leaves in file order", prepare_case(other, choice), {}});
+        variants.push_back(make_variant("leaves in file order", other, choice));
     }
     return variants;
 }
@@ -107,6 +144,15 @@ std::unique_ptr<EmbreeScene> embree_beside(const CaseInput& input) {
     if (!embree_available() || input.device.info().kind != "cpu" || !input.scene.is_plain()) return nullptr;
     return std::make_unique<EmbreeScene>(
         curved_surface(input.scene.models[0], Surface::Sweep::disc, Caps::open));
+}
+
+void explain_culling(const CulledScene& culled, const Scene& scene, const Rays& rays) {
+    const StrandCount reach = culled.out_of_reach, small = culled.too_small;
+    fmt::print(
+        "\n{} rays: of {} strands ({} curves) {} ({}) are out of reach and {} ({}) too small; found in "
+        "{:.1f} ms\n",
+        rays.name, scene.strand_count(), scene.curve_count(), reach.strands, reach.curves, small.strands,
+        small.curves, culled.milliseconds);
 }
 
 void explain(const Variant& all, const PrimitiveChoice& choice) {
@@ -194,8 +240,10 @@ void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, cons
                                 {"trace", "ms"},
                                 {"time", "ratio"}};
     if (on_processor) columns.insert(columns.end(), {{"processor", "ms"}, {"processor", "ratio"}});
-    columns.insert(columns.end(),
-                   {{"memory", "ratio"}, {"answers that differ", "rays"}, {"bits that differ", "rays"}});
+    columns.insert(columns.end(), {{"ready", "ms"},
+                                   {"memory", "ratio"},
+                                   {"answers that differ", "rays"},
+                                   {"bits that differ", "rays"}});
     Table table(columns);
     const auto time_cells = [&](const std::string& name, size_t i) {
         std::vector<std::string> cells{name, fmt::format("{:.4g}", times[i].device_ms),
@@ -207,6 +255,7 @@ void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, cons
     };
     for (size_t i = 0; i < variants.size(); ++i) {
         std::vector<std::string> cells = time_cells(variants[i].name, i);
+        cells.push_back(fmt::format("{:.4g}", variants[i].ready_ms()));
         cells.push_back(fmt::format("{:.3f}", double(variants[i].prepared.resident_bytes()) /
                                                   double(variants[0].prepared.resident_bytes())));
         const Differences count = rays.shadow ? shadow_differences(variants[0].hits, variants[i].hits)
@@ -217,7 +266,7 @@ void measure_set(std::vector<Variant>& variants, const EmbreeScene* embree, cons
     }
     if (embree != nullptr) {
         std::vector<std::string> cells = time_cells("Embree's round curves", variants.size());
-        cells.insert(cells.end(), {"-", "-", "-"});  // of another surface
+        cells.insert(cells.end(), {"-", "-", "-", "-"});  // of another surface
         table.add_row(std::move(cells));
     }
     fmt::print("\n{}", table.to_string(standard_output_style()));
@@ -232,6 +281,7 @@ void print_ablation(BenchOptions& options, bool measure) {
     apply_preset(options, device.info());
     options.rays.error_rays = 0;
     const Caps caps = options.primitives.scene_caps();
+    const Culling culling = options.culling();
     fmt::print("{}\n", device.name());
     bool is_first = true;
     for (const std::string& model : options.models.models) {
@@ -248,16 +298,26 @@ void print_ablation(BenchOptions& options, bool measure) {
         input.options.ray_extent = object_extent(scene, rays.extent());
         fmt::print("\n{}\n", scene.name);
         for (const PrimitiveChoice& choice : options.primitives.choices()) {
-            std::vector<Variant> variants = make_variants(input, choice, measure);
-            if (is_first) explain_start(variants.front(), input, start, rays.sets().front().rays);
-            is_first = false;
-            explain(variants.front(), choice);
             const std::unique_ptr<EmbreeScene> embree =
                 measure && !options.no_embree ? embree_beside(input) : nullptr;
-            for (size_t set = 0; measure && set < rays.sets().size(); ++set) {
+            std::vector<Variant> variants;
+            for (size_t set = 0; set < rays.sets().size(); ++set) {
                 const MeasuredRays& one = rays.sets()[set];
-                measure_set(variants, one.shadow ? nullptr : embree.get(), input, one, choice,
-                            options.rays.seed);
+                // What may be left out depends on the set alone, as in bench.
+                if (set == 0 || culling.is_any()) {
+                    std::optional<CulledScene> culled;
+                    if (culling.is_any()) culled = cull(scene, culling, one.rays.rays);
+                    input.culled = culled ? &*culled : nullptr;
+                    variants = make_variants(input, choice, culling, one.rays, measure);
+                    if (is_first) explain_start(variants.front(), input, start, one.rays);
+                    is_first = false;
+                    if (culled) explain_culling(*culled, scene, one.rays);
+                    explain(variants.front(), choice);
+                    input.culled = nullptr;
+                }
+                if (measure)
+                    measure_set(variants, one.shadow ? nullptr : embree.get(), input, one, choice,
+                                options.rays.seed);
             }
         }
     }

@@ -89,6 +89,7 @@ void BenchOptions::add_to(CLI::App& app) {
     app.add_flag("--no-compaction", no_compaction, "keep acceleration structures as built");
     app.add_flag("--low-memory", low_memory,
                  "smaller acceleration structures, slower to trace, where the driver can");
+    app.add_option("--cull", cull, std::string(cull_help) + "; by each ray set on its own");
     app.add_option("--no-skip", no_skips, "force a skip off, repeatable; --explain lists them");
     app.add_flag("--explain", explain, "only print what tracing leaves out for these scenes and primitives");
     app.add_flag("--ablation", ablation,
@@ -118,6 +119,7 @@ void BenchOptions::check() const {
     device.options();
     if (!rays.resolution.empty()) resolutions();
     check_skips(no_skips);
+    if (culling().is_any() && lod) fail(ExitCode::usage, "--cull {}: not with --lod; leave one out", cull);
     if (!scale_chart.empty()) check_appendable(scale_chart);
     const std::pair<const char*, double> limits[] = {{"--bytes-per-curve", bytes_per_curve},
                                                      {"--max-error", max_error},
@@ -141,6 +143,16 @@ DeviceOptions BenchOptions::device_options() const {
     DeviceOptions options = device.options();
     options.pipeline_statistics = profile;
     return options;
+}
+
+Culling BenchOptions::culling() const {
+    Culling allowed = parse_culling(cull);
+    const auto is_off = [&](std::string_view skip) {
+        return std::find(no_skips.begin(), no_skips.end(), skip) != no_skips.end();
+    };
+    if (is_off(reach_skip)) allowed.reach = false;
+    if (is_off(detail_skip)) allowed.detail = 0;
+    return allowed;
 }
 
 void BenchOptions::apply_to(SceneOptions& scene) const {
@@ -196,6 +208,7 @@ std::string reproducing_command(const BenchOptions& options, const ResultRow& ro
     if (options.leaf_order != "auto") command.add("--leaf-order", options.leaf_order);
     command.flag("--no-compaction", options.no_compaction);
     command.flag("--low-memory", options.low_memory);
+    if (!row.settings.cull.empty()) command.add("--cull", row.settings.cull);
     for (const std::string& skip : options.no_skips) command.add("--no-skip", skip);
     command.flag("--no-normals", options.no_normals);
     command.flag("--no-embree", row.primitive.name != "embree");

@@ -5,6 +5,7 @@
 #include "commands/ray_arguments.h"
 #include "report/result_row.h"
 #include "report/sweep.h"
+#include "trace/culling.h"
 #include "trace/gpu_scene.h"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +33,7 @@ struct BenchOptions {
     double max_error = 0, max_memory = 0, time_budget = 0;  // 0: no limit
     bool resume = false;
     bool no_embree = false, no_compaction = false, no_normals = false, low_memory = false;
+    std::string cull;  // what need not be built; empty: all is
     std::vector<std::string> no_skips;
     bool explain = false, ablation = false, profile = false;
     bool lod = false;
@@ -44,6 +46,8 @@ struct BenchOptions {
     Shard shard() const { return parse_shard(shard_text); }
     SceneOptions::Order order() const;
     DeviceOptions device_options() const;
+    /// What --cull allows and --no-skip does not force off.
+    Culling culling() const;
     /// Sets what of the options says how scenes are put on the device.
     void apply_to(SceneOptions& scene) const;
     /// Of --resolution, "WIDTHxHEIGHT" separated by commas; throws Error (usage).

@@ -21,14 +21,21 @@ std::string path_in_row(const std::string& path, const std::string& json) {
 
 void BenchRun::measure_distances(Block& block) const {
     if (options_.images.empty()) return;
+    // From elsewhere other strands are within reach, but the same ones too small.
+    CaseInput input = block.input;
+    std::optional<CulledScene> culled;
+    if (culling_.detail > 0) {
+        culled = cull(block.scene, {.reach = false, .detail = culling_.detail}, {});
+        input.culled = &*culled;
+    }
     std::optional<DistantPictures> pictures;
     for (const Case& one : block.open) {
         if (one.primitive == choices_.size() || !block.rays.sets()[one.set].is_picture) continue;
         if (is_over_budget()) return;
         if (!pictures) {
             const Resolution& size = resolutions_[block.resolution];
-            pictures.emplace(block.input, camera_of(block.scene, options_.rays, size), size.width,
-                             size.height, options_.rays.seed, caps_);
+            pictures.emplace(input, camera_of(block.scene, options_.rays, size), size.width, size.height,
+                             options_.rays.seed, caps_);
         }
         try {
             block.distances[one.primitive] = pictures->errors_of(choices_[one.primitive]);

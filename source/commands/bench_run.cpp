@@ -77,6 +77,7 @@ BenchRun::BenchRun(BenchOptions& options)
     : options_(options),
       device_(options.device_options()),
       caps_(options.primitives.scene_caps()),
+      culling_(options.culling()),
       curve_options_(options.models.curve_options()),
       shard_(options.shard()),
       context_(current_context()),
@@ -173,20 +174,11 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
 
     measure_distances(block);
 
-    std::vector<size_t> waiting;
-    for (size_t primitive = 0; primitive < choices_.size(); ++primitive)
-        if (std::any_of(block.open.begin(), block.open.end(),
-                        [&](const Case& one) { return one.primitive == primitive; }))
-            waiting.push_back(primitive);
-    const std::vector<PrimitiveChoice> choices = choices_within_memory(block);
-    SceneGroups groups(block.input, choices, baseline_, waiting,
-                       group_limits(device_.info(), options_.interleave));
-    while (!is_over_budget()) {
-        const auto group = groups.next();
-        if (group.empty()) break;
-        for (size_t set = 0; set < wanted.size() && !is_over_budget(); ++set)
-            if (wanted[set]) measure_set(block, set, group, groups.baseline());
-    }
+    std::vector<size_t> sets;
+    for (size_t set = 0; set < wanted.size(); ++set)
+        if (wanted[set]) sets.push_back(set);
+    if (!culling_.is_any()) measure_sets(block, sets);
+    for (size_t i = 0; i < sets.size() && culling_.is_any(); ++i) measure_culled(block, sets[i]);
     measure_embree(block);
 
     std::vector<Json> rows;
@@ -195,6 +187,38 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
     if (!rows.empty()) fmt::print("\n{}", result_table(rows));
     if (options_.profile) fmt::print("\n{}", profile_table(rows));
     std::fflush(stdout);
+}
+
+void BenchRun::measure_sets(Block& block, const std::vector<size_t>& sets) {
+    std::vector<size_t> waiting;
+    for (size_t primitive = 0; primitive < choices_.size(); ++primitive)
+        if (std::any_of(sets.begin(), sets.end(), [&](size_t set) { return block.is_open(set, primitive); }))
+            waiting.push_back(primitive);
+    if (waiting.empty() || is_over_budget()) return;
+    const std::vector<PrimitiveChoice> choices = choices_within_memory(block);
+    SceneGroups groups(block.input, choices, baseline_, waiting,
+                       group_limits(device_.info(), options_.interleave));
+    while (!is_over_budget()) {
+        const auto group = groups.next();
+        if (group.empty()) break;
+        for (size_t i = 0; i < sets.size() && !is_over_budget(); ++i)
+            measure_set(block, sets[i], group, groups.baseline());
+    }
+}
+
+// By each set on its own, so that a row does not depend on which other sets its run measures.
+void BenchRun::measure_culled(Block& block, size_t set) {
+    const bool has_any = std::any_of(block.open.begin(), block.open.end(), [&](const Case& one) {
+        return one.set == set && one.primitive < choices_.size();
+    });
+    if (!has_any || is_over_budget()) return;
+    const CulledScene culled = cull(block.scene, culling_, block.rays.sets()[set].rays.rays);
+    inform("{}, {} rays: {} of {} strands are not built ({} out of reach, {} too small)", block.scene.name,
+           block.rays.sets()[set].rays.name, culled.left_out().strands, block.scene.strand_count(),
+           culled.out_of_reach.strands, culled.too_small.strands);
+    block.input.culled = &culled;
+    measure_sets(block, {set});
+    block.input.culled = nullptr;
 }
 
 std::vector<PrimitiveChoice> BenchRun::choices_within_memory(const Block& block) const {
@@ -228,12 +252,19 @@ ResultRow BenchRun::base_row(const Block& block, size_t set, size_t primitive) c
     row.model = block.facts;
     row.rays = block.ray_facts[set];
     row.device = facts_of(device_.info(), device_.has_validation());
-    row.settings = {*options_.repeat,         warm_up_of(device_.info()),
-                    options_.rays.error_rays, options_.leaf_order,
-                    !options_.no_compaction,  !options_.no_normals,
-                    options_.low_memory,      options_.device.traversal,
-                    options_.no_skips,        caps_,
-                    options_.bytes_per_curve};
+    row.settings = {*options_.repeat,
+                    warm_up_of(device_.info()),
+                    options_.rays.error_rays,
+                    options_.leaf_order,
+                    !options_.no_compaction,
+                    !options_.no_normals,
+                    options_.low_memory,
+                    options_.device.traversal,
+                    options_.no_skips,
+                    caps_,
+                    options_.bytes_per_curve,
+                    culling_.to_string(),
+                    {}};
     row.seed = options_.rays.seed;
     row.context = context_;
     if (primitive == choices_.size()) return with_embree_facts(std::move(row));
@@ -257,6 +288,10 @@ void BenchRun::measure_set(Block& block, size_t set, const std::vector<const Pre
         prepared->traced->run(*buffers, rays.shadow);
         ResultRow row = base_row(block, set, primitive);
         row.geometry_ms = prepared->geometry_ms;
+        if (block.input.culled != nullptr) {
+            row.settings.left_out = block.input.culled->left_out();
+            row.cull_ms = block.input.culled->milliseconds;
+        }
         row.cost = prepared->traced->cost();
         {
             const Hits hits = buffers->hits();

@@ -6,6 +6,7 @@
 #include "measure/interleave.h"
 #include "measure/scene_group.h"
 #include "report/result_writer.h"
+#include "trace/culling.h"
 #include "trace/trace_device.h"
 
 #include <nlohmann/json.hpp>
@@ -44,6 +45,10 @@ class BenchRun {
     bool is_wanted(size_t number) const { return shard_.holds(number, axes_->cases()); }
     bool is_over_budget() const;
 
+    /// The cases of these ray sets.
+    void measure_sets(Block& block, const std::vector<size_t>& sets);
+    /// Those of one set, without what --cull allows to leave out for its rays.
+    void measure_culled(Block& block, size_t set);
     void measure_set(Block& block, size_t set, const std::vector<const PreparedCase*>& group,
                      const PreparedCase* baseline);
     std::vector<TimeSamples> time_all(const Block& block, size_t set,
@@ -65,6 +70,7 @@ class BenchRun {
     TraceDevice device_;
     std::vector<PrimitiveChoice> choices_;
     Caps caps_ = Caps::round;
+    Culling culling_;
     CurveOptions curve_options_;
     std::vector<Resolution> resolutions_;
     Shard shard_;

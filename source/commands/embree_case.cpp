@@ -10,6 +10,7 @@ namespace strandlab {
 
 ResultRow with_embree_facts(ResultRow row) {
     row.primitive = {"embree", std::string(embree_label), {}, Caps::open, Caps::open};
+    row.settings.cull.clear();  // it is given all strands
     row.device = {row.context.cpu, "Embree " + embree_version(), "none", "cpu", false,
                   false,           row.context.memory_bytes};
     return row;

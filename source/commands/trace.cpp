@@ -8,17 +8,19 @@
 #include "commands/usage_error.h"
 #include "measure/bench_case.h"
 #include "measure/statistics.h"
+#include "trace/culling.h"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace strandlab {
 namespace {
 
 struct Options {
-    std::string curves, strands, rays, output;
+    std::string curves, strands, rays, output, cull;
     PrimitiveArguments primitive;
     DeviceArguments device;
     uint32_t repeat = 1;
@@ -57,10 +59,20 @@ nlohmann::ordered_json statistics_of(const Options& options, const PreparedCase&
             {"leaves", cost.leaf_count}};
 }
 
+nlohmann::ordered_json statistics_of(const CulledScene& culled, const Culling& culling) {
+    return {{"allowed", culling.to_string()},
+            {"out_of_reach_strands", culled.out_of_reach.strands},
+            {"out_of_reach_curves", culled.out_of_reach.curves},
+            {"too_small_strands", culled.too_small.strands},
+            {"too_small_curves", culled.too_small.curves},
+            {"cull_ms", culled.milliseconds}};
+}
+
 int run(const Options& options) {
     if (options.primitive.primitives.empty())
         fail(ExitCode::usage, "trace needs --primitive NAME[:key=value,...]");
     const PrimitiveChoice choice = options.primitive.choices().front();
+    const Culling culling = parse_culling(options.cull);
     const Scene scene = load_scene(options.curves, {}, options.strands);
     const Rays rays = load_ray_file(options.rays);
     const TraceDevice device(options.device.options());
@@ -69,13 +81,16 @@ int run(const Options& options) {
     input.options.normals = !options.no_normals && !options.shadow;
     input.options.traversal = options.device.asked_traversal();
     input.options.ray_extent = object_extent(scene, extent_of(rays));
+    std::optional<CulledScene> culled;
+    if (culling.is_any()) input.culled = &culled.emplace(cull(scene, culling, rays.rays));
     const PreparedCase prepared = prepare_case(input, choice);
     const TraceResult result =
         prepared.traced->trace(rays, {.shadow = options.shadow, .samples = options.repeat, .warm_up_ms = 0});
     device.check_validation();
     write_hits(options.output, result.hits);
-    write_file((std::filesystem::path(options.output) / "stats.json").string(),
-               statistics_of(options, prepared, device, result).dump(2) + "\n");
+    nlohmann::ordered_json statistics = statistics_of(options, prepared, device, result);
+    if (culled) statistics["cull"] = statistics_of(*culled, culling);
+    write_file((std::filesystem::path(options.output) / "stats.json").string(), statistics.dump(2) + "\n");
     inform("{}: {} rays through {} on {}", options.output, rays.rays.size(), choice.label(), device.name());
     return 0;
 }
@@ -100,6 +115,7 @@ Command trace_command() {
                 app.add_option("-o,--out", options->output,
                                "folder for t, curve, u, normal (.npy) and stats.json")
                     ->required();
+                app.add_option("--cull", options->cull, cull_help);
                 app.add_option("--repeat", options->repeat, "times to trace; stats.json keeps each time")
                     ->check(whole_number(1, 10000));
                 app.add_flag("--shadow", options->shadow, "any hit will do: t is tmin and curve 0 for a hit");

@@ -73,13 +73,15 @@ HostGeometry make_geometry(const Scene& scene, const PrimitiveChoice& choice) {
 
 PreparedCase prepare_case(const CaseInput& input, HostGeometry geometry) {
     PreparedCase prepared{geometry.choice, nullptr, geometry.milliseconds};
+    SceneOptions options = input.options;
+    if (input.culled != nullptr) options.curve_numbers = input.culled->curve_numbers;
     prepared.traced = input.device.prepare(*geometry.choice.primitive, std::move(geometry.models),
-                                           input.scene.instances, input.options);
+                                           input.scene.instances, options);
     return prepared;
 }
 
 PreparedCase prepare_case(const CaseInput& input, const PrimitiveChoice& choice) {
-    return prepare_case(input, make_geometry(input.scene, choice));
+    return prepare_case(input, make_geometry(input.built(), choice));
 }
 
 std::vector<Surface> own_surfaces(const Scene& scene, const PrimitiveChoice& choice) {
@@ -113,8 +115,11 @@ Comparison compare_with(const Scene& scene, const Curves& curves, const Measured
 CaseErrors errors_of(const CaseInput& input, const PrimitiveChoice& choice, const MeasuredRays& rays,
                      const Hits& sample_hits) {
     if (rays.sample.empty() || choice.primitive->diagnostic) return {};
-    const Reference own =
-        make_scene_reference(input.scene, own_surfaces(input.scene, choice), input.curves, rays.sample_rays);
+    std::vector<Surface> surfaces = own_surfaces(input.scene, choice);
+    // What is out of reach changes no answer; what is too small is no part of the surface.
+    for (uint32_t i = 0; i < surfaces.size() && input.culled != nullptr; ++i)
+        remove_too_small(surfaces[i], *input.culled, input.scene.first_curve(i));
+    const Reference own = make_scene_reference(input.scene, surfaces, input.curves, rays.sample_rays);
     CaseErrors errors;
     errors.own = compare_with(input.scene, input.curves, rays, sample_hits, own, false);
     if (!rays.common.hits.empty())

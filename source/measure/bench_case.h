@@ -3,6 +3,7 @@
 
 #include "measure/comparison.h"
 #include "scene/scene.h"
+#include "trace/culling.h"
 #include "trace/scene_reference.h"
 #include "trace/trace_device.h"
 
@@ -41,6 +42,9 @@ struct CaseInput {
     uint32_t samples = 5;
     double warm_up_ms = 0;
     SceneOptions options;
+    const CulledScene* culled = nullptr;  // what of the scene is built; none: all
+
+    const Scene& built() const { return culled != nullptr ? culled->scene : scene; }
 };
 
 /// The geometry of all models for one primitive, on the host.

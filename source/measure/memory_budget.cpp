@@ -35,7 +35,7 @@ bool has_splits(const Primitive& primitive) {
 }  // namespace
 
 PrimitiveChoice within_memory(const CaseInput& input, const PrimitiveChoice& choice, double bytes_per_curve) {
-    const auto curves = double(input.scene.curve_count());
+    const auto curves = double(input.built().curve_count());
     if (!has_splits(*choice.primitive) || curves == 0) return choice;
     if (input.device.gpu() == nullptr)
         fail(ExitCode::usage,

@@ -37,7 +37,7 @@ SceneGroups::SceneGroups(const CaseInput& input, const std::vector<PrimitiveChoi
       baseline_index_(baseline),
       waiting_(waiting.begin(), waiting.end()),
       limits_(limits) {
-    if (!waiting_.empty()) baseline_ = prepare(make_geometry(input.scene, choices[baseline]));
+    if (!waiting_.empty()) baseline_ = prepare(make_geometry(input.built(), choices[baseline]));
 }
 
 std::optional<PreparedCase> SceneGroups::prepare(HostGeometry geometry) {
@@ -64,7 +64,7 @@ std::vector<const PreparedCase*> SceneGroups::next() {
             continue;
         }
         HostGeometry geometry =
-            pending_ ? std::move(*pending_) : make_geometry(input_.scene, choices_[index]);
+            pending_ ? std::move(*pending_) : make_geometry(input_.built(), choices_[index]);
         pending_.reset();
         if (!group_.empty() && !fits(resident + geometry.device_bytes())) {
             pending_ = std::move(geometry);

@@ -123,7 +123,10 @@ Json to_json(const BenchSettings& settings) {
             {"traversal", settings.traversal},
             {"no_skips", settings.no_skips},
             {"caps", name_of(settings.caps)},
-            {"bytes_per_curve", json_number(settings.bytes_per_curve)}};
+            {"bytes_per_curve", json_number(settings.bytes_per_curve)},
+            {"cull", text_or_null(settings.cull)},
+            {"left_out_strands", settings.left_out ? Json(settings.left_out->strands) : Json()},
+            {"left_out_curves", settings.left_out ? Json(settings.left_out->curves) : Json()}};
 }
 
 Json to_json(const ModelFacts& model) {
@@ -194,6 +197,7 @@ Json time_of(const ResultRow& row) {
             {"wall_ms", wall ? to_json(*wall) : Json()},
             {"ratio", ratio_of(row)},
             {"group", text_or_null(row.group)},
+            {"cull_ms", optional_number(row.cull_ms)},
             {"geometry_ms", optional_number(row.geometry_ms)},
             {"order_ms", of_cost([](const SceneCost& c) { return c.order_ms; })},
             {"order_cached", row.cost ? Json(row.cost->order_cached) : Json()},

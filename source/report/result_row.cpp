@@ -37,6 +37,7 @@ std::string BenchSettings::key() const {
     if (low_memory) text += " low_memory=1";
     if (traversal != "pipeline") text += " traversal=" + traversal;
     if (bytes_per_curve > 0) text += fmt::format(" bytes_per_curve={}", bytes_per_curve);
+    if (!cull.empty()) text += " cull=" + cull;
     for (const std::string& skip : no_skips) text += " no_skip=" + skip;
     return text;
 }

@@ -10,6 +10,7 @@
 #include "report/sweep.h"
 #include "scene/rays.h"
 #include "strands/curves.h"
+#include "trace/culling.h"
 #include "trace/gpu_scene.h"
 
 #include <cstddef>
@@ -80,7 +81,9 @@ struct BenchSettings {
     std::string traversal = "pipeline";  // as asked for; the row's cost has the one that was used
     std::vector<std::string> no_skips;   // forced off
     Caps caps = Caps::round;
-    double bytes_per_curve = 0;  // limit of --bytes-per-curve; 0: none
+    double bytes_per_curve = 0;                // limit of --bytes-per-curve; 0: none
+    std::string cull = {};                     // what --cull allows to leave out; empty: nothing
+    std::optional<StrandCount> left_out = {};  // by that; no part of the key
 
     /// " order=median compaction=0 normals=0": what changes the case and is not the default.
     std::string key() const;
@@ -116,6 +119,7 @@ struct ResultRow {
     std::string group;  // rows with the same one were interleaved: sample i of all is round i
     std::optional<TimeRatio> ratio;
     std::optional<double> geometry_ms;  // host: making leaves and records from the curves
+    std::optional<double> cull_ms;      // host: finding out what need not be built
     std::optional<SceneCost> cost;
     std::optional<Comparison> intersector_error;  // against the primitive's own surface
     std::optional<Comparison> model_error;        // against the common reference

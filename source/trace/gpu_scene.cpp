@@ -33,16 +33,17 @@ enum ConstantId : uint32_t {
 // gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
 constexpr uint32_t shadow_flags = 0x4u | 0x8u;
 
-/// What a number is in every model; 0 where they differ or there are none.
+/// What a number is in every model that has leaves; 0 where they differ or there are none.
 template <class NumberOf>
 uint32_t common_value(std::span<const SceneModel> models, NumberOf&& number_of) {
-    uint32_t common = 0;
-    for (size_t i = 0; i < models.size(); ++i) {
-        const uint32_t number = number_of(models[i].geometry);
-        if (i > 0 && number != common) return 0;
+    std::optional<uint32_t> common;
+    for (const SceneModel& model : models) {
+        if (model.leaf_count() == 0) continue;
+        const uint32_t number = number_of(model.geometry);
+        if (common && number != *common) return 0;
         common = number;
     }
-    return common;
+    return common.value_or(0);
 }
 
 /// A structure takes up to 128 bytes a leaf on the devices seen, and must fit one allocation.
@@ -103,7 +104,8 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
       normals_(options.normals),
       curves_of_a_ray_(options.curves_of_a_ray),
       hardware_fma_(options.hardware_fma),
-      no_skips_(options.no_skips) {
+      no_skips_(options.no_skips),
+      curve_numbers_(options.curve_numbers) {
     for (SceneModel& model : models) {
         if (curves_of_a_ray_ != 0) order_by_ray(model.geometry, curves_of_a_ray_);
         assert(model.geometry.constants == models.front().geometry.constants);
@@ -335,6 +337,7 @@ void GpuScene::add_launches(const GpuRays& rays, layout::TraceParameters paramet
 
 double GpuScene::run(GpuRays& rays, bool shadow) const {
     assert(!normals_ || !rays.normals_.is_empty() || rays.count_ == 0);
+    rays.curve_numbers_ = shadow ? nullptr : curve_numbers_;
     if (rays.count_ == 0) return 0;
     if (!parts_.empty()) return pipeline_for(rays, shadow).run(launches(rays, shadow));
     // Without leaves there is nothing to trace: every ray misses.
@@ -369,6 +372,11 @@ Hits GpuRays::hits() const {
     Hits result;
     result.hits.resize(count_);
     if (count_ != 0) hits_.download(std::as_writable_bytes(std::span(result.hits)));
+    if (curve_numbers_)
+        parallel_for(count_, [&](size_t i) {
+            uint32_t& curve = result.hits[i].curve;
+            if (curve < curve_numbers_->size()) curve = (*curve_numbers_)[curve];
+        });
     if (normals_.is_empty()) return result;
     result.normals.resize(count_);
     normals_.download(std::as_writable_bytes(std::span(result.normals)));

@@ -40,6 +40,9 @@ struct SceneModel {
     size_t leaf_count() const { return on_device ? on_device->count : geometry.leaf_count(); }
 };
 
+/// A number for each curve of all models; none: its own.
+using CurveNumbers = std::shared_ptr<const std::vector<uint32_t>>;
+
 /// How a scene is put on the device.
 struct SceneOptions {
     /// Leaf order of the build's input. automatic: median where the driver keeps the order (lavapipe).
@@ -63,6 +66,9 @@ struct SceneOptions {
     Traversal traversal = Traversal::pipeline;
     /// Names of skips (trace/skips.h) that are forced off.
     std::vector<std::string> no_skips;
+    /// What hits are to name curves instead of by their number among those of the models, where these are not
+    /// all that a scene has (trace/culling.h).
+    CurveNumbers curve_numbers = nullptr;
     /// Where the pipeline is kept for the next scene; none: each scene has its own.
     PipelineStore* pipelines = nullptr;
 };
@@ -112,6 +118,7 @@ class GpuRays {
     size_t count_ = 0;
     uint32_t width_ = 0, height_ = 0;
     Buffer rays_, hits_, normals_, counters_;
+    CurveNumbers curve_numbers_;  // of the scene that was traced last, where its hits have curves
 };
 
 class GpuScene {
@@ -175,6 +182,7 @@ class GpuScene {
     uint32_t curves_of_a_ray_ = 0;
     bool hardware_fma_ = false;
     std::vector<std::string> no_skips_;
+    CurveNumbers curve_numbers_;
     bool has_leaf_table_ = true;
     uint32_t uniform_pieces_ = 0;           // of all models; 0: they differ
     uint32_t strand_curves_ = 0;            // that share points, in all strands of all models; 0: none do

@@ -58,6 +58,7 @@ std::optional<std::vector<RayWork>> GpuScene::count_work(GpuRays& rays, bool sha
     if (!has_intersector_) return std::nullopt;
     pipeline_for(rays, shadow);
     rays.clear_counters(device_);
+    rays.curve_numbers_ = shadow ? nullptr : curve_numbers_;
     const bool by_query = cost_.traversal == Traversal::query;
     pipelines_.make({.by_query = by_query, .counts_work = true})->run(launches(rays, shadow));
     std::vector<RayWork> work(rays.count_);

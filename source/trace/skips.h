@@ -15,6 +15,9 @@ struct Skip {
     std::string_view where;
 };
 
+/// Names of those that a caller has to allow (trace/culling.h).
+inline constexpr std::string_view reach_skip = "reach", detail_skip = "detail";
+
 /// All of them, in the order in which reports list them.
 std::span<const Skip> skips();
 

@@ -64,7 +64,8 @@ class CpuTraced : public TracedScene {
               std::span<const SceneInstance> instances, const SceneOptions& options)
         : models_(std::move(models)),
           instances_(instances.begin(), instances.end()),
-          normals_(options.normals) {
+          normals_(options.normals),
+          curve_numbers_(options.curve_numbers) {
         const Stopwatch stopwatch;
         tracers_.reserve(models_.size());
         for (const SceneModel& model : models_) {
@@ -165,6 +166,7 @@ class CpuTraced : public TracedScene {
             if (!hit.is_hit()) continue;
             if (shadow) return {ray.tmin, 0, 0, 0};
             hit.curve += models_[instance.model].first_curve;
+            if (curve_numbers_) hit.curve = (*curve_numbers_)[hit.curve];
             hit.instance = i;
             best = hit;
             normal = object_normal;
@@ -177,6 +179,7 @@ class CpuTraced : public TracedScene {
     std::vector<SceneInstance> instances_;
     std::vector<CpuTracer> tracers_;
     bool normals_;
+    CurveNumbers curve_numbers_;
     SceneCost cost_;
 };
 

@@ -3,6 +3,7 @@
 #include "conformance_scene.h"
 #include "gpu/embedded_shaders.h"
 #include "primitives/primitive.h"
+#include "trace/reach_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +105,33 @@ TEST_P(Contract, BoxesAreFiniteAndHoldTheirCurve) {
             for (int axis = 0; axis < 3; ++axis) {
                 EXPECT_LE(boxes[i].low[axis], point[axis] - point.w + slack) << "leaf " << i;
                 EXPECT_GE(boxes[i].high[axis], point[axis] + point.w - slack) << "leaf " << i;
+            }
+        }
+    }
+}
+
+/// The options by default, and with every word that a parameter can be.
+std::vector<BuildOptions> all_words(const PrimitiveChoice& choice) {
+    std::vector<BuildOptions> all{choice.options};
+    for (const ParameterInfo& info : choice.primitive->parameters)
+        for (const std::string& word : info.choices)
+            all.emplace_back(choice.options)
+                .parameters.set(choice.primitive->name, choice.primitive->parameters, info.name, word);
+    return all;
+}
+
+/// What strands_within_reach (trace/reach.h) relies on.
+TEST_P(Contract, LeavesStayNearTheirCurve) {
+    const Curves curves = conformance_curves(100);
+    for (const BuildOptions& options : all_words(choice())) {
+        const Geometry g = primitive().build(curves, options);
+        const std::vector<Box> boxes = leaf_boxes(g);
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            const Box hull = hull_box({&curves.curves[g.leaves[i].curve], 1}, widest_primitive);
+            const float slack = 2e-6f;  // of coordinates up to 2
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(boxes[i].low[axis], hull.low[axis] - slack) << "leaf " << i;
+                EXPECT_LE(boxes[i].high[axis], hull.high[axis] + slack) << "leaf " << i;
             }
         }
     }

@@ -109,6 +109,8 @@ TEST(ResultRow, SettingsThatChangeACaseAreInItsKey) {
     row.settings.compaction = false;
     row.settings.leaf_order = "file";
     EXPECT_EQ(row.key(), plain + " order=file compaction=0");
+    row.settings.cull = "reach";
+    EXPECT_EQ(row.key(), plain + " order=file compaction=0 cull=reach");
 }
 
 TEST(ResultRow, SaysWhatToDoAboutAWideSpread) {

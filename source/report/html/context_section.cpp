@@ -110,6 +110,8 @@ std::string context_section(const PageData& data) {
                         {"compaction", "settings.compaction"},
                         {"normals", "settings.normals"},
                         {"strand ends", "settings.caps"},
+                        {"strands left out by", "settings.cull"},
+                        {"strands left out", "settings.left_out_strands"},
                         {"seed", "seed"},
                         {"schema", "schema"}});
 }
