@@ -98,8 +98,8 @@ TEST_F(CullingTest, BadCullingIsRefused) {
 TEST_F(CullingTest, TraceGivesTheSameFiles) {
     expect_success(run(bench({"--rays", "primary", "--save-rays", "rays"})));
     std::string rays_file;
-    for (const std::string& name : files())
-        if (name.ends_with(".npy")) rays_file = name;
+    for (const auto& entry : std::filesystem::directory_iterator(path("rays")))
+        rays_file = "rays/" + entry.path().filename().string();
     ASSERT_FALSE(rays_file.empty());
     const Arguments trace{"trace",  "--curves", "generate:head,style=straight,strands=400,points=9",
                           "--rays", rays_file,  "--primitive",

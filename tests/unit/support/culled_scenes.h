@@ -63,13 +63,23 @@ inline Rays partial_rays(const Scene& scene, uint32_t count, float share) {
     return rays;
 }
 
-/// How many rays have other bits, normals included.
+/// Whether two hits are one place where two curves of a strand meet: it is both's, equally far, and what a
+/// traversal comes upon first decides.
+inline bool is_same_joint(const Hit& a, const Hit& b) {
+    const auto meet = [](const Hit& last, const Hit& first) {
+        return last.curve + 1 == first.curve && last.u == 1 && first.u == 0;
+    };
+    return a.is_hit() && b.is_hit() && a.t == b.t && a.instance == b.instance && (meet(a, b) || meet(b, a));
+}
+
+/// How many rays have other bits, normals included (but at joints).
 inline size_t different_bits(const Hits& a, const Hits& b) {
     size_t count = a.hits.size() == b.hits.size() ? 0 : std::max(a.hits.size(), b.hits.size());
     for (size_t i = 0; i < a.hits.size() && count < a.hits.size(); ++i) {
         const bool same_normal = a.normals.empty() || !a.hits[i].is_hit() ||
                                  std::memcmp(&a.normals[i], &b.normals[i], sizeof a.normals[i]) == 0;
-        count += std::memcmp(&a.hits[i], &b.hits[i], sizeof(Hit)) == 0 && same_normal ? 0 : 1;
+        const bool same = std::memcmp(&a.hits[i], &b.hits[i], sizeof(Hit)) == 0 && same_normal;
+        count += same || is_same_joint(a.hits[i], b.hits[i]) ? 0 : 1;
     }
     return count;
 }
