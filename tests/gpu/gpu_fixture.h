@@ -12,7 +12,7 @@
 
 namespace strandlab {
 
-/// One device for all tests of a suite, opened as Kind::options() says.
+/// One device for all tests of a suite, opened as Kind::options() says and closed after them.
 template <class Kind>
 class DeviceTest : public testing::Test {
   protected:
@@ -27,6 +27,8 @@ class DeviceTest : public testing::Test {
             why_none_ = error.what();
         }
     }
+    /// Not at the program's end: by then the validation layers may have destroyed what they need.
+    static void TearDownTestSuite() { device_.reset(); }
     void SetUp() override {
         if (!device_) GTEST_SKIP() << why_none_;
     }
