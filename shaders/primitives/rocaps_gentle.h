@@ -32,8 +32,8 @@ FUNCTION real verified_step(real4 p, real4 d, real4 dd, real inside) {
     return -h / abs(h_slope);
 }
 
-// Depths and positions in the frame of the ray. u goes to the parameter of the entry. One that lies beyond the
-// piece [a, b] at an end where the curve goes on is the neighbouring piece's, and a miss here. False: not
+// Depths and positions in the frame of the ray. u goes to the parameter of the entry. One that lies beyond
+// the piece [a, b] at an end where the curve goes on is the neighbouring piece's, and a miss here. False: not
 // converged, search.
 FUNCTION bool gentle_entry(RayJet jet, real a, real b, real z_min, bool starts_before, OUT(bool) hit,
                            OUT(real) u, OUT(real) z, OUT(real3) normal) {
@@ -89,7 +89,8 @@ FUNCTION bool rocaps_gentle(real3 origin, real3 direction, real tmin, real tmax,
     RayJet jet = ray_jet(frame, direction, view, powers, c0.w, middle, a, b);
     // In scenes of nanometres products of four lengths would vanish: the search scales them.
     real width = b - a;
-    if (!((jet.first.x * jet.first.x + jet.first.y * jet.first.y) * width * width > real(1e-10))) return false;
+    if (!((jet.first.x * jet.first.x + jet.first.y * jet.first.y) * width * width > real(1e-10)))
+        return false;
     real z_min = (tmin - frame.t_foot) / frame.inv_length;
     bool starts_before = z_min < jet.point.z - width * abs(jet.first.z) - thickest - sqrt(sagitta_squared);
     real z;

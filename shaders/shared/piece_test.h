@@ -87,9 +87,9 @@ FUNCTION CurvePowers curve_powers(real4 edge1, real4 edge2, real4 edge3) {
 FUNCTION real4 curve_offset(CurvePowers c, real u) { return ((c.cubic * u + c.square) * u + c.linear) * u; }
 
 // Whether a ray crosses the piece, of that width in parameters, so that it meets its solid at most once,
-// entering at one place: at an angle that is not small, where the piece turns little, is thin against its bend
-// and tapers little. radius is the curve's first, thickest bounds all; sagitta_squared bounds (8 times what
-// the piece leaves its chord)^2.
+// entering at one place: at an angle that is not small, where the piece turns little, is thin against its
+// bend and tapers little. radius is the curve's first, thickest bounds all; sagitta_squared bounds (8 times
+// what the piece leaves its chord)^2.
 FUNCTION bool crosses_gently(real3 direction, PieceView view, CurvePowers powers, real width, real radius,
                              OUT(real) thickest, OUT(real) sagitta_squared) {
     real scale = real(9) * width * width;

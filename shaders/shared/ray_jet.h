@@ -3,9 +3,9 @@
 // keep all digits of what is near the ray.
 
 struct RayJet {
-    real u;        // the curve's parameter there
-    real4 point;   // and its place and radius
-    real4 first;   // point + first d + second d^2 + third d^3, at u + d
+    real u;       // the curve's parameter there
+    real4 point;  // and its place and radius
+    real4 first;  // point + first d + second d^2 + third d^3, at u + d
     real4 second;
     real4 third;
 };
@@ -26,8 +26,8 @@ FUNCTION RayJet ray_jet(RayFrame frame, real3 direction, PieceView view, CurvePo
                         real3 middle, real a, real b) {
     RayJet jet;
     // Where the tangent at the middle is nearest to the ray.
-    real along = dot(cross(middle - frame.foot, direction), view.normal) /
-                 (real(3) * dot(view.normal, view.normal));
+    real along =
+        dot(cross(middle - frame.foot, direction), view.normal) / (real(3) * dot(view.normal, view.normal));
     jet.u = clamp(real(0.5) * (a + b) + along, a, b);
     real4 place = curve_offset(powers, jet.u);
     jet.point = real4(turn_to_frame(frame, real3(place) - frame.foot), radius + place.w);
