@@ -63,13 +63,12 @@ inline Rays partial_rays(const Scene& scene, uint32_t count, float share) {
     return rays;
 }
 
-/// Whether two hits are one place where two curves of a strand meet: it is both's, equally far, and what a
-/// traversal comes upon first decides.
+/// Whether two hits are one place where two pieces of a strand meet: pieces overlap there a little, and of
+/// two entries that are equally far the one that a traversal comes upon first counts.
 inline bool is_same_joint(const Hit& a, const Hit& b) {
-    const auto meet = [](const Hit& last, const Hit& first) {
-        return last.curve + 1 == first.curve && last.u == 1 && first.u == 0;
-    };
-    return a.is_hit() && b.is_hit() && a.t == b.t && a.instance == b.instance && (meet(a, b) || meet(b, a));
+    const double along_a = double(a.curve) + a.u, along_b = double(b.curve) + b.u;
+    return a.is_hit() && b.is_hit() && a.t == b.t && a.instance == b.instance &&
+           std::abs(along_a - along_b) < 1e-4;
 }
 
 /// How many rays have other bits, normals included (but at joints).
