@@ -36,7 +36,7 @@ FUNCTION bool prhi_at_once(real3 origin, real3 direction, real tmin, real tmax, 
     CurvePowers powers = curve_powers(view.edge1, view.edge2, view.edge3);
     real thickest;
     real sagitta_squared;
-    if (!gentle_first || !crosses_gently(direction, view, powers, b - a, p0.w, thickest, sagitta_squared))
+    if (!gentle_first || !crosses_gently(direction, view, powers, a, b - a, p0.w, thickest, sagitta_squared))
         return false;
     real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
     RayFrame frame = make_ray_frame(origin, direction, real3(p0), middle);

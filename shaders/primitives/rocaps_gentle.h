@@ -82,7 +82,7 @@ FUNCTION bool rocaps_gentle(real3 origin, real3 direction, real tmin, real tmax,
     real thickest;
     real sagitta_squared;
     if (!gentle_first || open_end ||
-        !crosses_gently(direction, view, powers, b - a, c0.w, thickest, sagitta_squared))
+        !crosses_gently(direction, view, powers, a, b - a, c0.w, thickest, sagitta_squared))
         return false;
     real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
     RayFrame frame = make_ray_frame(origin, direction, real3(c0), middle);

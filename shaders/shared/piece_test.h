@@ -86,18 +86,18 @@ FUNCTION CurvePowers curve_powers(real4 edge1, real4 edge2, real4 edge3) {
 
 FUNCTION real4 curve_offset(CurvePowers c, real u) { return ((c.cubic * u + c.square) * u + c.linear) * u; }
 
-// Whether a ray crosses the piece, of that width in parameters, so that it meets its solid at most once,
+// Whether a ray crosses the piece [a, a + width] so that it meets its solid at most once,
 // entering at one place: at an angle that is not small, where the piece turns little, is thin against its
 // bend and tapers little. radius is the curve's first, thickest bounds all; sagitta_squared bounds (8 times
 // what the piece leaves its chord)^2.
-FUNCTION bool crosses_gently(real3 direction, PieceView view, CurvePowers powers, real width, real radius,
-                             OUT(real) thickest, OUT(real) sagitta_squared) {
+FUNCTION bool crosses_gently(real3 direction, PieceView view, CurvePowers powers, real a, real width,
+                             real radius, OUT(real) thickest, OUT(real) sagitta_squared) {
     real scale = real(9) * width * width;
     real length_squared = scale * dot(view.tangent, view.tangent);
     real lateral = scale * dot(view.normal, view.normal) / dot(direction, direction);
-    // Halves of the second derivative at both ends.
-    real3 start = real3(powers.square);
-    real3 end = start + real3(powers.cubic) * real(3);
+    // Halves of the second derivative at both ends of the piece.
+    real3 start = real3(powers.square) + real3(powers.cubic) * (real(3) * a);
+    real3 end = start + real3(powers.cubic) * (real(3) * width);
     sagitta_squared = real(4) * max(dot(start, start), dot(end, end)) * (width * width) * (width * width);
     real most = max(max(view.edge1.w, view.edge2.w), max(view.edge3.w, real(0)));
     real least = min(min(view.edge1.w, view.edge2.w), min(view.edge3.w, real(0)));

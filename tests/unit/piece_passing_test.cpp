@@ -128,7 +128,7 @@ TEST(GentleCrossing, MeetsThePieceOnce) {
         passes(c, view);
         float thickest = 0, sagitta_squared = 0;
         if (!Kernel::crosses_gently(c.direction, view,
-                                    Kernel::curve_powers(view.edge1, view.edge2, view.edge3),
+                                    Kernel::curve_powers(view.edge1, view.edge2, view.edge3), float(c.a),
                                     float(c.b - c.a), c.rounded[0].w, thickest, sagitta_squared))
             continue;
         ++gentle;
