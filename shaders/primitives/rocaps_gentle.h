@@ -61,7 +61,7 @@ FUNCTION bool gentle_entry(RayJet jet, real a, real b, real z_min, bool starts_b
             real depth = sqrt(max(p.w * p.w - (p.x * p.x + p.y * p.y), real(0)));
             z = p.z - depth;
             hit = z >= z_min;
-            normal = normalize(real3(-p.x, -p.y, -depth));
+            normal = normal_or_facing(real3(-p.x, -p.y, -depth) / p.w);
             return true;
         }
         u = next;
