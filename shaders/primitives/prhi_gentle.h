@@ -33,14 +33,13 @@ FUNCTION bool prhi_at_once(real3 origin, real3 direction, real tmin, real tmax, 
     PieceView view;
     bool passes = passes_piece(origin, direction, p0, p1, p2, p3, a, b, view);
     if (early_out && passes) return true;
-    CurvePowers powers = curve_powers(view.edge1, view.edge2, view.edge3);
+    RayFrame frame;
+    RayJet jet;
     real thickest;
     real sagitta_squared;
-    if (!gentle_first || !crosses_gently(direction, view, powers, a, b - a, p0.w, thickest, sagitta_squared))
+    if (!gentle_first ||
+        !gentle_approach(origin, direction, view, p0, a, b, frame, jet, thickest, sagitta_squared))
         return false;
-    real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
-    RayFrame frame = make_ray_frame(origin, direction, real3(p0), middle);
-    RayJet jet = ray_jet(frame, direction, view, powers, p0.w, middle, a, b);
     real d;
     PrhiPoint p;
     PrhiStep found;

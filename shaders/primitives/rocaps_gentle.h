@@ -78,15 +78,13 @@ FUNCTION bool rocaps_gentle(real3 origin, real3 direction, real tmin, real tmax,
     PieceView view;
     bool passes = passes_piece(origin, direction, c0, c1, c2, c3, a, b, view);
     if (early_out && passes) return true;
-    CurvePowers powers = curve_powers(view.edge1, view.edge2, view.edge3);
+    RayFrame frame;
+    RayJet jet;
     real thickest;
     real sagitta_squared;
     if (!gentle_first || open_end ||
-        !crosses_gently(direction, view, powers, a, b - a, c0.w, thickest, sagitta_squared))
+        !gentle_approach(origin, direction, view, c0, a, b, frame, jet, thickest, sagitta_squared))
         return false;
-    real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
-    RayFrame frame = make_ray_frame(origin, direction, real3(c0), middle);
-    RayJet jet = ray_jet(frame, direction, view, powers, c0.w, middle, a, b);
     // In scenes of nanometres products of four lengths would vanish: the search scales them.
     real width = b - a;
     if (!((jet.first.x * jet.first.x + jet.first.y * jet.first.y) * width * width > real(1e-10)))

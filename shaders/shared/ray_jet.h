@@ -37,3 +37,16 @@ FUNCTION RayJet ray_jet(RayFrame frame, real3 direction, PieceView view, CurvePo
     jet.third = turned(frame, powers.cubic);
     return jet;
 }
+
+// The piece [a, b] that a view shows, of the curve that begins at p0, where the ray crosses it gently
+// (crosses_gently): its jet, and the frame that this is in. False elsewhere.
+FUNCTION bool gentle_approach(real3 origin, real3 direction, PieceView view, real4 p0, real a, real b,
+                              OUT(RayFrame) frame, OUT(RayJet) jet, OUT(real) thickest,
+                              OUT(real) sagitta_squared) {
+    CurvePowers powers = curve_powers(view.edge1, view.edge2, view.edge3);
+    if (!crosses_gently(direction, view, powers, a, b - a, p0.w, thickest, sagitta_squared)) return false;
+    real3 middle = real3(curve_offset(powers, real(0.5) * (a + b)));
+    frame = make_ray_frame(origin, direction, real3(p0), middle);
+    jet = ray_jet(frame, direction, view, powers, p0.w, middle, a, b);
+    return true;
+}

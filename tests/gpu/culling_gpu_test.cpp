@@ -39,12 +39,7 @@ TEST_P(CullingGpuTest, ModelsWithoutStrandsAreNoObstacle) {
 
 INSTANTIATE_TEST_SUITE_P(Primitives, CullingGpuTest,
                          ::testing::Values("dots", "lss", "lss:tolerance=0.3", "prhi", "rocaps"),
-                         [](const auto& parameter) {
-                             std::string name = parameter.param;
-                             for (char& c : name)
-                                 if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-                             return name;
-                         });
+                         testing::name_of_choice);
 
 }  // namespace
 }  // namespace strandlab

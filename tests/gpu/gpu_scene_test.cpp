@@ -1,6 +1,7 @@
 // Tracing on the device: what comes back for scenes whose hits are known.
 #include "trace/gpu_scene.h"
 
+#include "../unit/support/parallel_strands.h"
 #include "base/random.h"
 #include "gpu_fixture.h"
 
@@ -8,18 +9,6 @@
 
 namespace strandlab {
 namespace {
-
-/// Straight curves of one strand each along x, at y = 0, 1, 2..., radius 0.1.
-Curves parallel_strands(uint32_t count) {
-    Curves curves;
-    for (uint32_t i = 0; i < count; ++i) {
-        Curve curve;
-        for (int k = 0; k < 4; ++k) curve[k] = glm::vec4(float(k), float(i), 0.0f, 0.1f);
-        curves.curves.push_back(curve);
-        curves.strands.push_back({i, 1});
-    }
-    return curves;
-}
 
 Rays rays_down(uint32_t count) {
     Rays rays;

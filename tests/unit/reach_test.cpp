@@ -2,6 +2,7 @@
 #include "trace/reach.h"
 
 #include "support/culled_scenes.h"
+#include "support/parallel_strands.h"
 #include "trace/reach_grid.h"
 
 #include <gtest/gtest.h>
@@ -9,18 +10,6 @@
 
 namespace strandlab {
 namespace {
-
-/// Straight strands of one curve along x, at y = 0, 1, 2..., of radius 0.1.
-Curves parallel_strands(uint32_t count) {
-    Curves curves;
-    for (uint32_t i = 0; i < count; ++i) {
-        Curve curve;
-        for (int k = 0; k < 4; ++k) curve[k] = glm::vec4(float(k), float(i), 0.0f, 0.1f);
-        curves.curves.push_back(curve);
-        curves.strands.push_back({i, 1});
-    }
-    return curves;
-}
 
 std::vector<uint8_t> reached(const Curves& curves, std::vector<Ray> rays) {
     return strands_within_reach(scene_of("", curves), rays).front();
@@ -148,12 +137,7 @@ TEST_P(ReachAnswers, StayTheSame) {
 INSTANTIATE_TEST_SUITE_P(Primitives, ReachAnswers,
                          ::testing::Values("null", "dots", "dots:tolerance=0.3", "lss", "lss:tolerance=0.3",
                                            "prhi:splits=4", "rocaps:splits=3"),
-                         [](const auto& parameter) {
-                             std::string name = parameter.param;
-                             for (char& c : name)
-                                 if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-                             return name;
-                         });
+                         testing::name_of_choice);
 
 }  // namespace
 }  // namespace strandlab

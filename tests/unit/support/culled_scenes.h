@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace strandlab::testing {
@@ -61,6 +63,14 @@ inline Rays partial_rays(const Scene& scene, uint32_t count, float share) {
         rays.rays.push_back(ray);
     }
     return rays;
+}
+
+/// The name of a parameterized test: of the primitive and its parameters.
+inline std::string name_of_choice(const ::testing::TestParamInfo<const char*>& parameter) {
+    std::string name = parameter.param;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
 }
 
 /// Whether two hits are one place where two pieces of a strand meet: pieces overlap there a little, and of
