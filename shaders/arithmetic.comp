@@ -19,7 +19,8 @@ struct Answer {
     vec4 fma_residue;     // of the products factor * direction; w: direction.x * factor + direction.w
     vec4 dekker_residue;  // of the same; w: t of the frame's foot
     vec4 foot;            // of the ray frame
-    vec4 plain_foot;      // the same without its corrections
+    vec4 plain_foot;      // the same without its corrections; w: as fma_residue.w, free to be contracted
+    vec4 rounded;         // factor / direction.x, sqrt(factor)
 };
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ProbeBuffer { Probe items[]; };
@@ -40,12 +41,14 @@ void main() {
     precise vec3 product = direction * factor;
     precise vec3 fma_residue = fma(vec3(factor), direction, -product);
     precise float sum = direction.x * factor + probe.direction.w;
+    float loose_sum = direction.x * factor + probe.direction.w;
     RayFrame frame = make_ray_frame(probe.origin.xyz, direction, probe.reference.xyz, probe.middle.xyz);
     precise vec3 plain_foot = (probe.origin.xyz - probe.reference.xyz) + direction * frame.t_foot;
     Answer answer;
     answer.fma_residue = vec4(fma_residue, sum);
     answer.dekker_residue = vec4(product_error(factor, direction, product), frame.t_foot);
     answer.foot = vec4(frame.foot, 0.0);
-    answer.plain_foot = vec4(plain_foot, 0.0);
+    answer.plain_foot = vec4(plain_foot, loose_sum);
+    answer.rounded = vec4(factor / direction.x, sqrt(factor), 0.0, 0.0);
     AnswerBuffer(answers).items[index] = answer;
 }

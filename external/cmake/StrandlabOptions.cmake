@@ -8,6 +8,7 @@ find_package(ZLIB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(VulkanHeaders REQUIRED)
+find_package(SPIRV-Headers REQUIRED)
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 
 # strandlab_optional(NAME package help): option STRANDLAB_NAME. AUTO, the default, is asked again at every

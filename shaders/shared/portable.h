@@ -20,6 +20,24 @@
 #define COUNT_ITERATION  // what traces rays counts them (shared/trace.glsl)
 #endif
 
+// Functions whose roundings GLSL leaves open, as GLM has them.
+float glm_dot(vec2 a, vec2 b) {
+    vec2 p = a * b;
+    return p.x + p.y;
+}
+float glm_dot(vec3 a, vec3 b) {
+    vec3 p = a * b;
+    return p.x + p.y + p.z;
+}
+vec3 glm_cross(vec3 a, vec3 b) { return a.yzx * b.zxy - b.yzx * a.zxy; }
+vec3 glm_normalize(vec3 v) { return v * (1.0 / sqrt(glm_dot(v, v))); }
+float glm_mix(float a, float b, float u) { return a * (1.0 - u) + b * u; }
+vec4 glm_mix(vec4 a, vec4 b, float u) { return a * (1.0 - u) + b * u; }
+#define dot glm_dot
+#define cross glm_cross
+#define normalize glm_normalize
+#define mix glm_mix
+
 // Set only where the arithmetic probe (source/gpu/arithmetic.h) has shown that fma rounds once.
 layout(constant_id = 15) const bool hardware_fma = false;
 

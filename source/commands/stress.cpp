@@ -8,6 +8,7 @@
 #include "commands/stress_run.h"
 #include "trace/embree_reference.h"
 #include "trace/scene_reference.h"
+#include "trace/skips.h"
 #include "trace/trace_device.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 
 struct Options {
     PrimitiveArguments primitives;
-    std::vector<std::string> families, devices;
+    std::vector<std::string> families, devices, no_skips;
     double pairs = 20000, embree_pairs = 20000;
     uint64_t seed = default_stress_seed;
     std::string json, heat_map, worst_folder, agree;
@@ -28,13 +29,6 @@ struct Options {
     bool self_intersection = false, watertight = false;
 };
 
-/// Where intersectors run; opened once, with the pipelines that a Vulkan device has made so far.
-struct StressDevice {
-    const TraceDevice* device = nullptr;
-    PipelineStore pipelines;
-
-    const std::string& name() const { return device->name(); }
-};
 using Devices = std::vector<StressDevice>;
 
 std::vector<std::string> default_devices(const Options& options) {
@@ -70,9 +64,9 @@ void run_choice(const PrimitiveChoice& choice, const Curves& curves, const Stres
     PlainHits plain(primitive, geometry, pairs);
     for (size_t d = 0; d < devices.size(); ++d) {
         StressTally& tally = cells[d].tally;
-        if (const Device* gpu = devices[d].device->gpu()) {
-            const PairScene scene(*gpu, primitive, geometry, pairs.range, extent_of(pairs.rays),
-                                  &devices[d].pipelines);
+        if (devices[d].is_gpu()) {
+            const PairScene scene =
+                devices[d].scene(primitive, geometry, pairs.range, extent_of(pairs.rays));
             const std::vector<StressHit> hits = scene.trace(pairs.rays);
             add_errors(pairs, hits, keep, tally);
             add_difference(curves, pairs.rays, hits, plain.get(), tally.agreement);
@@ -149,6 +143,7 @@ StressRun make_run(const Options& options) {
         fail(ExitCode::usage, "--self-intersection, --watertight, --agree: pass one of them");
     if (!options.agree.empty() && options.agree != "cpu-float")
         fail(ExitCode::usage, "--agree {}: devices are compared with cpu-float", options.agree);
+    check_skips(options.no_skips);
     for (const std::string& path : {options.json, options.heat_map})
         if (!path.empty()) check_appendable(path);  // before a night of work, not after it
     StressRun run;
@@ -158,6 +153,7 @@ StressRun make_run(const Options& options) {
         run.devices.push_back(std::make_unique<TraceDevice>(DeviceOptions{name, false}));
     run.pairs = static_cast<uint64_t>(options.pairs);
     run.seed = options.seed;
+    run.no_skips = options.no_skips;
     run.json = options.json;
     return run;
 }
@@ -172,7 +168,7 @@ void run_family(const StressRun& run, const StressFamily& family, const Options&
     for (size_t i = 0; i < cells.size(); ++i) {
         StressCell& cell = cells[i];
         auto limits = stress_limits(cell.primitive->name, family, cell.precise);
-        const bool is_driver = devices[i % devices.size()].device->gpu() != nullptr &&
+        const bool is_driver = devices[i % devices.size()].is_gpu() &&
                                cell.primitive->shaders.intersection.empty();
         if (is_driver && limits) limits->judged = false, limits->reason = "the driver's own triangle test";
         cell.judgement = judge(cell.tally, limits, family, cell.precise);
@@ -186,8 +182,7 @@ void run_family(const StressRun& run, const StressFamily& family, const Options&
 }
 
 int run_errors(const StressRun& run, const Options& options) {
-    Devices devices;
-    for (const auto& device : run.devices) devices.push_back({device.get(), {}});
+    Devices devices = devices_of(run);
     std::vector<StressCell> all;
     {
         Progress progress("stress", run.pairs * run.families.size() * run.choices.size());
@@ -220,6 +215,10 @@ RunCommand declare(CLI::App& app) {
     app.add_option("--device", options->devices,
                    "cpu-float, cpu-double or a Vulkan device (see strandlab info), repeatable (default: the "
                    "first two; what --agree is about: the best Vulkan device)")
+        ->allow_extra_args(false);
+    app.add_option("--no-skip", options->no_skips,
+                   "force a skip of Vulkan devices off, repeatable (see strandlab bench --explain): rounding, "
+                   "to have them round as C++ does")
         ->allow_extra_args(false);
     app.add_option("--pairs", options->pairs, "pairs of every family; 1e8 takes a night")
         ->capture_default_str();

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace strandlab {
 namespace {
 
@@ -48,6 +50,14 @@ void add_json(const Cell& cell, nlohmann::ordered_json& object) {
     object["beyond"] = rate_json(a.beyond(), a.hits());
 }
 
+std::string rounding_text(const StressRun& run, const TraceDevice& device) {
+    const Arithmetic& arithmetic = device.arithmetic();
+    if (!arithmetic.rounds_loosely()) return "rounds as C++ does";
+    if (std::count(run.no_skips.begin(), run.no_skips.end(), "rounding") != 0)
+        return "made to round as C++ does (--no-skip rounding)";
+    return arithmetic.to_string() + "; --no-skip rounding makes it round as C++ does";
+}
+
 }  // namespace
 
 int run_agreement(const StressRun& run) {
@@ -56,15 +66,15 @@ int run_agreement(const StressRun& run) {
             fail(ExitCode::usage, "--agree cpu-float: {} is no Vulkan device; pass --device NAME",
                  device->name());
     DeviceCells<Agreement> cells(run);
-    std::vector<PipelineStore> pipelines(run.devices.size());
+    std::vector<StressDevice> devices = devices_of(run);
     for_each_chunk(run, "agreement", [&](size_t family, size_t choice, const StressChunk& chunk) {
         const Primitive& primitive = *chunk.choice.primitive;
         const std::span<const Ray> rays = chunk.pairs.rays;
         BoxCheck boxes;
         const auto plain = intersect_pairs(primitive, chunk.geometry, chunk.pairs, Precision::single, boxes);
-        for (size_t d = 0; d < run.devices.size(); ++d) {
-            const PairScene scene(*run.devices[d]->gpu(), primitive, chunk.geometry, chunk.pairs.range,
-                                  extent_of(rays), &pipelines[d]);
+        for (size_t d = 0; d < devices.size(); ++d) {
+            const PairScene scene =
+                devices[d].scene(primitive, chunk.geometry, chunk.pairs.range, extent_of(rays));
             add_difference(chunk.curves, rays, scene.trace(rays), plain, cells.of(family, choice)[d].tally);
         }
     });
@@ -72,6 +82,7 @@ int run_agreement(const StressRun& run) {
         cells.finish([](const Cell& cell) { return judge_agreement(cell.tally, *cell.choice, *cell.family); },
                      table_of, add_json);
     fmt::print("\nAllowed: max(4 ulp of t, 1e-4 radii) for 99.9 % of hits; other answers count as beyond.\n");
+    for (const auto& device : run.devices) fmt::print("{}: {}\n", device->name(), rounding_text(run, *device));
     return code;
 }
 

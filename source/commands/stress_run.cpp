@@ -6,6 +6,18 @@
 
 namespace strandlab {
 
+PairScene StressDevice::scene(const Primitive& primitive, const Geometry& geometry, const StressRange& range,
+                              float extent) {
+    return PairScene(*device_->gpu(), primitive, geometry, range,
+                     {extent, &pipelines_, device_->arithmetic(), *no_skips_});
+}
+
+std::vector<StressDevice> devices_of(const StressRun& run) {
+    std::vector<StressDevice> devices;
+    for (const auto& device : run.devices) devices.emplace_back(*device, run);
+    return devices;
+}
+
 std::vector<StressRange> stress_ranges(const StressFamily& family, uint64_t pairs, uint64_t seed) {
     std::vector<StressRange> ranges;
     for (uint64_t first = 0; first < pairs; first += stress_chunk_size)

@@ -18,8 +18,30 @@ struct StressRun {
     std::vector<PrimitiveChoice> choices;
     std::vector<std::unique_ptr<TraceDevice>> devices;
     uint64_t pairs = 0, seed = default_stress_seed;  // pairs of each family
+    std::vector<std::string> no_skips;               // on Vulkan devices
     std::string json;                                // file; empty: none
 };
+
+/// A device of a run, with the pipelines that it has made so far.
+class StressDevice {
+  public:
+    StressDevice(const TraceDevice& device, const StressRun& run)
+        : device_(&device), no_skips_(&run.no_skips) {}
+
+    const std::string& name() const { return device_->name(); }
+    bool is_gpu() const { return device_->gpu() != nullptr; }
+    /// For a Vulkan device. extent: largest coordinate of any origin that will be traced.
+    PairScene scene(const Primitive& primitive, const Geometry& geometry, const StressRange& range,
+                    float extent);
+
+  private:
+    const TraceDevice* device_;
+    const std::vector<std::string>* no_skips_;
+    PipelineStore pipelines_;
+};
+
+/// Those of a run, which must outlive them.
+std::vector<StressDevice> devices_of(const StressRun& run);
 
 /// Pairs that are in memory at a time.
 inline constexpr uint64_t stress_chunk_size = 20000;

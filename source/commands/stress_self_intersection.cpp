@@ -60,20 +60,19 @@ void add_json(const Cell& cell, nlohmann::ordered_json& object) {
     object["shadow_differs"] = rate_json(t.shadow_differs, t.shadow_rays);
 }
 
-void add_chunk(const StressChunk& chunk, std::span<Cell> cells, std::span<PipelineStore> pipelines) {
+void add_chunk(const StressChunk& chunk, std::span<Cell> cells, std::span<StressDevice> devices) {
     const Primitive& primitive = *chunk.choice.primitive;
     const StressRange& range = chunk.pairs.range;
     const std::vector<SpawnPoint> points =
         spawn_points(primitive, chunk.geometry, chunk.surface, chunk.pairs);
     for (size_t d = 0; d < cells.size(); ++d) {
         Cell& cell = cells[d];
-        const Device* gpu = cell.device->gpu();
-        if (gpu == nullptr) {
+        if (!devices[d].is_gpu()) {
             add_spawned(primitive, chunk.geometry, chunk.surface, range, points, cell.tally);
             continue;
         }
         // The rays start near the strands, whose boxes know their own size.
-        const PairScene scene(*gpu, primitive, chunk.geometry, range, 0, &pipelines[d]);
+        const PairScene scene = devices[d].scene(primitive, chunk.geometry, range, 0);
         add_spawned(scene, primitive, chunk.surface, range, points, cell.tally);
     }
 }
@@ -86,9 +85,9 @@ int run_self_intersection(const StressRun& run) {
             fail(ExitCode::usage,
                  "--device cpu-double: --self-intersection is about float; pass cpu-float or a device");
     DeviceCells<SpawnTally> cells(run);
-    std::vector<PipelineStore> pipelines(run.devices.size());
+    std::vector<StressDevice> devices = devices_of(run);
     for_each_chunk(run, "self-intersection", [&](size_t family, size_t choice, const StressChunk& chunk) {
-        add_chunk(chunk, cells.of(family, choice), pipelines);
+        add_chunk(chunk, cells.of(family, choice), devices);
     });
     return cells.finish(
         [](const Cell& cell) { return judge_spawned(cell.tally, *cell.choice->primitive, *cell.family); },

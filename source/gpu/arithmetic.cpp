@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/embedded_shaders.h"
+#include "gpu/rounding.h"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,13 @@ std::vector<ArithmeticProbe> product_probes() {
 
 /// What the answers say; a fact holds only if every single product agrees.
 Arithmetic judge(std::span<const ArithmeticProbe> probes, std::span<const ArithmeticAnswer> answers) {
-    Arithmetic facts{true, true, true};
+    Arithmetic facts{.fuses_fma = true, .keeps_precise = true, .exact_products = true};
     for (size_t i = 0; i < probes.size(); ++i) {
         facts.keeps_precise = facts.keeps_precise && answers[i].sum == 0;
+        facts.contracts = facts.contracts || answers[i].loose_sum != 0;
+        facts.rough_quotients =
+            facts.rough_quotients || answers[i].quotient != probes[i].factor / probes[i].direction[0];
+        facts.rough_roots = facts.rough_roots || answers[i].root != std::sqrt(probes[i].factor);
         for (int axis = 0; axis < 3; ++axis) {
             const float exact = residue(probes[i].factor, probes[i].direction[axis]);
             facts.fuses_fma = facts.fuses_fma && answers[i].fma_residue[axis] == exact;
@@ -67,19 +72,25 @@ float dekker_residue(float a, float b, float product) {
 }  // namespace
 
 std::string Arithmetic::to_string() const {
-    return fmt::format("fma is {}; precise products are {}contracted, Dekker's splitting is {}",
-                       fuses_fma ? "fused" : "not fused", keeps_precise ? "not " : "",
-                       exact_products ? "exact" : "NOT exact: expect errors far from the origin");
+    return fmt::format("fma is {}; {}precise products are {}contracted, Dekker's splitting is {}{}{}",
+                       fuses_fma ? "fused" : "not fused", contracts ? "other products are contracted, " : "",
+                       keeps_precise ? "not " : "",
+                       exact_products ? "exact" : "NOT exact: expect errors far from the origin",
+                       rough_quotients ? ", quotients are rough" : "", rough_roots ? ", roots are rough" : "");
 }
 
 std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<const ArithmeticProbe> probes,
-                                               bool hardware_fma) {
+                                               const ArithmeticProbing& probing) {
     struct PushConstants {
         uint64_t probes, answers;
         uint32_t count, unused;
     };
-    const ComputePipeline pipeline(device, embedded_shader("arithmetic.comp"),
-                                   {{hardware_fma_id, hardware_fma ? 1u : 0u}}, sizeof(PushConstants));
+    const std::span<const uint32_t> plain = embedded_shader("arithmetic.comp");
+    const std::vector<uint32_t> alike =
+        probing.rounds_alike ? rounded_alike(plain, probing.mends_quotients) : std::vector<uint32_t>();
+    const ComputePipeline pipeline(device, alike.empty() ? plain : alike,
+                                   {{hardware_fma_id, probing.hardware_fma ? 1u : 0u}},
+                                   sizeof(PushConstants));
     const Buffer input = make_buffer(device, probes, Buffer::Use::storage);
     std::vector<ArithmeticAnswer> answers(probes.size());
     const Buffer output =
@@ -93,9 +104,9 @@ std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<c
     return answers;
 }
 
-Arithmetic arithmetic_of(const Device& device) {
+Arithmetic arithmetic_of(const Device& device, const ArithmeticProbing& probing) {
     const std::vector<ArithmeticProbe> probes = product_probes();
-    return judge(probes, probe_arithmetic(device, probes, false));
+    return judge(probes, probe_arithmetic(device, probes, probing));
 }
 
 Arithmetic arithmetic_of_cpu() {
@@ -108,7 +119,11 @@ Arithmetic arithmetic_of_cpu() {
             answers[i].fma_residue[axis] = std::fma(factor, x, -product);
             answers[i].dekker_residue[axis] = dekker_residue(factor, x, product);
         }
-        answers[i].sum = factor * at_run_time(probes[i].direction[0]) + at_run_time(probes[i].minus_product);
+        const float x = at_run_time(probes[i].direction[0]);
+        answers[i].sum = factor * x + at_run_time(probes[i].minus_product);
+        answers[i].loose_sum = answers[i].sum;
+        answers[i].quotient = factor / x;
+        answers[i].root = std::sqrt(factor);
     }
     return judge(probes, answers);
 }

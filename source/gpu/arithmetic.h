@@ -1,5 +1,5 @@
 // What a device's floating-point arithmetic does, found out by asking it: the accuracy of the ray frame
-// (shaders/shared/ray_frame.h) hangs on it.
+// (shaders/shared/ray_frame.h) hangs on it, and whether two devices say the same bits.
 #pragma once
 
 #include "gpu/device.h"
@@ -11,7 +11,7 @@
 
 namespace strandlab {
 
-/// Facts about products and fma; each is proven by thousands of products whose exact residue is known.
+/// Facts, each proven by thousands of operations whose exact result is known.
 struct Arithmetic {
     /// fma(a, b, c) rounds once. Vulkan allows two roundings, and lavapipe uses them.
     bool fuses_fma = false;
@@ -19,8 +19,14 @@ struct Arithmetic {
     bool keeps_precise = false;
     /// Dekker's splitting gives the exact residue of a product.
     bool exact_products = false;
+    /// a * b + c rounds once where nothing forbids it.
+    bool contracts = false;
+    /// Some a / b, some square root, is not the nearest float.
+    bool rough_quotients = false, rough_roots = false;
 
-    /// "fma is fused; products marked precise are not contracted and exact by Dekker's splitting".
+    /// Whether C++ gives other bits.
+    bool rounds_loosely() const { return contracts || rough_quotients || rough_roots; }
+    /// "fma is fused; precise products are not contracted, Dekker's splitting is exact; ...".
     std::string to_string() const;
 };
 
@@ -46,16 +52,25 @@ struct ArithmeticAnswer {
     std::array<float, 3> foot{};  // that point relative to the reference, as the frame has it
     float unused_0 = 0;
     std::array<float, 3> plain_foot{};  // and without the frame's corrections
-    float unused_1 = 0;
+    float loose_sum = 0;   // as sum, but the driver may contract it
+    float quotient = 0;    // factor / direction[0]
+    float root = 0;        // of factor
+    float unused_1[2] = {};
 };
-static_assert(sizeof(ArithmeticAnswer) == 64);
+static_assert(sizeof(ArithmeticAnswer) == 80);
 
-/// Runs the shader on the device; hardware_fma: with product errors by fma instead of Dekker's splitting.
+/// How the probing shader is compiled.
+struct ArithmeticProbing {
+    bool hardware_fma = false;  // product errors by fma instead of Dekker's splitting
+    bool rounds_alike = false, mends_quotients = false;  // gpu/rounding.h
+};
+
+/// Runs the shader on the device.
 std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<const ArithmeticProbe> probes,
-                                               bool hardware_fma);
+                                               const ArithmeticProbing& probing);
 
-/// Asks the device.
-Arithmetic arithmetic_of(const Device& device);
+/// Asks the device, or what it does with shaders that are compiled in another way.
+Arithmetic arithmetic_of(const Device& device, const ArithmeticProbing& probing = {});
 
 /// The same facts about this program's C++, which the CPU versions of the intersectors are compiled with.
 Arithmetic arithmetic_of_cpu();

@@ -97,13 +97,20 @@ std::vector<StressHit> intersect_pairs(const Primitive& primitive, const Geometr
 void count_iterations(const Primitive& primitive, const Geometry& geometry, const StressPairs& pairs,
                       IterationHistogram& iterations);
 
+/// How pairs are traced on a device.
+struct PairTracing {
+    float extent = 0;  // largest coordinate of any origin
+    PipelineStore* pipelines = nullptr;
+    Arithmetic arithmetic;              // of the device
+    std::vector<std::string> no_skips;  // trace/skips.h
+};
+
 /// Pairs on a Vulkan device: a hundred strands or so share a structure, and every ray meets its own strand
 /// only. What the C++ version finds and this does not was lost by a box, or by the arithmetic of the device.
 class PairScene {
   public:
-    /// The geometry is consumed. extent: largest coordinate of any origin that will be traced.
     PairScene(const Device& device, const Primitive& primitive, Geometry geometry, const StressRange& range,
-              float extent, PipelineStore* pipelines = nullptr);
+              const PairTracing& how);
 
     /// One ray for each pair, in order; shadow: hits say only whether there is one.
     std::vector<StressHit> trace(std::span<const Ray> rays, bool shadow = false) const;

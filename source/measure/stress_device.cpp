@@ -8,13 +8,15 @@ namespace {
 constexpr uint64_t leaves_of_a_structure = 1024;
 
 GpuScene make_scene(const Device& device, const Primitive& primitive, Geometry geometry,
-                    const StressRange& range, float extent, PipelineStore* pipelines) {
+                    const StressRange& range, const PairTracing& how) {
     SceneOptions options;
     options.compact = false;
     options.curves_of_a_ray = range.family->curves;
     options.max_leaves = leaves_of_a_structure;
-    options.ray_extent = extent;
-    options.pipelines = pipelines;
+    options.ray_extent = how.extent;
+    options.pipelines = how.pipelines;
+    options.arithmetic = how.arithmetic;
+    options.no_skips = how.no_skips;
     std::vector<SceneModel> models;
     models.push_back({std::move(geometry), 0});
     const SceneInstance instance;
@@ -24,8 +26,8 @@ GpuScene make_scene(const Device& device, const Primitive& primitive, Geometry g
 }  // namespace
 
 PairScene::PairScene(const Device& device, const Primitive& primitive, Geometry geometry,
-                     const StressRange& range, float extent, PipelineStore* pipelines)
-    : scene_(make_scene(device, primitive, std::move(geometry), range, extent, pipelines)) {}
+                     const StressRange& range, const PairTracing& how)
+    : scene_(make_scene(device, primitive, std::move(geometry), range, how)) {}
 
 std::vector<StressHit> PairScene::trace(std::span<const Ray> rays, bool shadow) const {
     Rays all;

@@ -103,7 +103,7 @@ GpuScene::GpuScene(const Device& device, const Primitive& primitive, std::vector
     : device_(device),
       normals_(options.normals),
       curves_of_a_ray_(options.curves_of_a_ray),
-      hardware_fma_(options.hardware_fma),
+      arithmetic_(options.arithmetic),
       no_skips_(options.no_skips),
       curve_numbers_(options.curve_numbers) {
     for (SceneModel& model : models) {
@@ -261,10 +261,13 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(is_in_place_id, is_in_place_ ? 1u : 0u);
     all.emplace_back(early_out_id, skips("early-out", has_intersector_) ? 1u : 0u);
     all.emplace_back(gentle_first_id, skips("gentle", has_intersector_) ? 1u : 0u);
-    all.emplace_back(hardware_fma_id, skips("splitting", hardware_fma_) ? 1u : 0u);
+    all.emplace_back(hardware_fma_id, skips("splitting", arithmetic_.fuses_fma) ? 1u : 0u);
     // On processors eight rays in a row of a picture share a vector: four by two meet more of the same boxes.
     all.emplace_back(blocks_of_lanes_id, device_.info().kind == "cpu" ? 1u : 0u);
-    pipelines_ = ScenePipelines(device_, primitive, std::move(all), curves_of_a_ray_ != 0, options.pipelines);
+    const bool is_loose = has_intersector_ && arithmetic_.rounds_loosely();
+    const bool alike = !skips("rounding", is_loose) && is_loose;
+    pipelines_ = ScenePipelines(device_, primitive, std::move(all), {alike, arithmetic_.fuses_fma},
+                                curves_of_a_ray_ != 0, options.pipelines);
     cost_.traversal = options.traversal;
     if (options.traversal != Traversal::pipeline && !device_.can_query_rays()) {
         if (options.traversal == Traversal::query)

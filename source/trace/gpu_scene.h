@@ -3,6 +3,7 @@
 
 #include "shaders/shared/trace_parameters.h"
 #include "gpu/acceleration_structure.h"
+#include "gpu/arithmetic.h"
 #include "gpu/device.h"
 #include "primitives/primitive.h"
 #include "scene/hits.h"
@@ -60,8 +61,8 @@ struct SceneOptions {
     uint32_t curves_of_a_ray = 0;
     /// Largest leaf count of one structure; 0: what the device allows. Tests make it small.
     uint64_t max_leaves = 0;
-    /// fma is known to round once on this device (gpu/arithmetic.h): the ray frame may use it.
-    bool hardware_fma = false;
+    /// What is known of the device's arithmetic: a fused fma is used where it is known.
+    Arithmetic arithmetic;
     /// query needs a device that was opened with ray queries: Error (no_device) otherwise.
     Traversal traversal = Traversal::pipeline;
     /// Names of skips (trace/skips.h) that are forced off.
@@ -180,7 +181,7 @@ class GpuScene {
     Device device_;
     bool normals_ = false;
     uint32_t curves_of_a_ray_ = 0;
-    bool hardware_fma_ = false;
+    Arithmetic arithmetic_;
     std::vector<std::string> no_skips_;
     CurveNumbers curve_numbers_;
     bool has_leaf_table_ = true;

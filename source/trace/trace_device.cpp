@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "gpu/arithmetic.h"
 #include "trace/cpu_trace.h"
 
 #include <algorithm>
@@ -213,12 +212,11 @@ void TraceDevice::check_validation() const {
          messages.front());
 }
 
-bool TraceDevice::fuses_fma() const {
-    // Processors' drivers are known not to (see `strandlab info`); asking them costs the compilation of a
-    // shader.
-    if (info_.kind == "cpu") return false;
-    if (!fuses_fma_) fuses_fma_ = arithmetic_of(*gpu_).fuses_fma;
-    return *fuses_fma_;
+const Arithmetic& TraceDevice::arithmetic() const {
+    // Processors' drivers are known to neither fuse nor approximate (see `strandlab info`); asking them costs
+    // the compilation of a shader.
+    if (!arithmetic_) arithmetic_ = info_.kind == "cpu" ? Arithmetic{} : arithmetic_of(*gpu_);
+    return *arithmetic_;
 }
 
 std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, std::vector<SceneModel> models,
@@ -226,7 +224,7 @@ std::unique_ptr<TracedScene> TraceDevice::prepare(const Primitive& primitive, st
                                                   const SceneOptions& options) const {
     if (gpu_) {
         SceneOptions known = options;
-        known.hardware_fma = fuses_fma();
+        known.arithmetic = arithmetic();
         return std::make_unique<GpuTraced>(*gpu_, primitive, std::move(models), instances, known);
     }
     return std::make_unique<CpuTraced>(primitive, is_double_ ? Precision::precise : Precision::single,

@@ -58,12 +58,13 @@ class TraceDevice {
     /// normals: the scenes that they will be traced through were prepared with them.
     std::unique_ptr<TracedRays> upload(const Rays& rays, bool normals) const;
 
-  private:
-    bool fuses_fma() const;
+    /// What is known of a Vulkan device's arithmetic; asks it the first time.
+    const Arithmetic& arithmetic() const;
 
+  private:
     std::unique_ptr<Device> gpu_;  // none for the C++ versions
     bool is_double_ = false;
-    mutable std::optional<bool> fuses_fma_;  // asked for at the first scene
+    mutable std::optional<Arithmetic> arithmetic_;
     DeviceInfo info_;
 };
 

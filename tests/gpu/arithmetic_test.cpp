@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace strandlab {
 namespace {
@@ -57,13 +58,37 @@ TEST_F(ArithmeticTest, FmaIsProvenFusedOrNot) {
     EXPECT_TRUE(facts.exact_products) << facts.to_string();
     if (device().info().is_lavapipe) {
         EXPECT_FALSE(facts.fuses_fma) << "lavapipe has learnt to fuse: let the frame use it";
+        EXPECT_FALSE(facts.rounds_loosely()) << "TraceDevice::arithmetic() says otherwise of processors";
     }
     RecordProperty("arithmetic", facts.to_string());
 }
 
+TEST_F(ArithmeticTest, ShadersThatAreRoundedAlikeRoundAsThisProcessor) {
+    const bool fused = arithmetic_of(device()).fuses_fma;
+    const Arithmetic facts = arithmetic_of(device(), {.rounds_alike = true, .mends_quotients = fused});
+    EXPECT_FALSE(facts.rounds_loosely()) << facts.to_string();
+    EXPECT_TRUE(facts.keeps_precise && facts.exact_products) << facts.to_string();
+    EXPECT_EQ(facts.fuses_fma, fused) << facts.to_string();
+}
+
+TEST_F(ArithmeticTest, MendingLeavesQuotientsThatHaveNoResidue) {
+    std::vector<ArithmeticProbe> probes(4);
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float pairs[][2] = {{1, 0}, {infinity, 2}, {1, infinity}, {0, 3}};
+    for (size_t i = 0; i < probes.size(); ++i) {
+        probes[i].factor = pairs[i][0];
+        probes[i].direction[0] = pairs[i][1];
+    }
+    const auto answers = probe_arithmetic(device(), probes, {.rounds_alike = true, .mends_quotients = true});
+    for (size_t i = 0; i < probes.size(); ++i) {
+        EXPECT_EQ(answers[i].quotient, pairs[i][0] / pairs[i][1]) << i;
+        EXPECT_EQ(answers[i].root, std::sqrt(pairs[i][0])) << i;
+    }
+}
+
 TEST_F(ArithmeticTest, TheFrameIsAccurateWithoutFusedFma) {
     const std::vector<ArithmeticProbe> probes = distant_rays();
-    const auto answers = probe_arithmetic(device(), probes, false);
+    const auto answers = probe_arithmetic(device(), probes, {});
     EXPECT_LT(worst_error(probes, answers, &ArithmeticAnswer::foot), 4);
     // What the corrections are for, and proof that this test would see their loss.
     EXPECT_GT(worst_error(probes, answers, &ArithmeticAnswer::plain_foot), 1e4);
@@ -71,7 +96,7 @@ TEST_F(ArithmeticTest, TheFrameIsAccurateWithoutFusedFma) {
 
 TEST_F(ArithmeticTest, TheFrameMayUseFmaExactlyWhereItIsFused) {
     const std::vector<ArithmeticProbe> probes = distant_rays();
-    const auto answers = probe_arithmetic(device(), probes, true);
+    const auto answers = probe_arithmetic(device(), probes, {.hardware_fma = true});
     const double worst = worst_error(probes, answers, &ArithmeticAnswer::foot);
     if (arithmetic_of(device()).fuses_fma)
         EXPECT_LT(worst, 4);

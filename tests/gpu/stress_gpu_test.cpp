@@ -19,7 +19,7 @@ TEST_P(StressOnDevice, AgreesWithTheFloatVersion) {
         StressTally tally;
         const auto plain =
             intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, tally.boxes);
-        const PairScene scene(device(), *choice.primitive, geometry, range, extent_of(pairs.rays));
+        const PairScene scene(device(), *choice.primitive, geometry, range, {.extent = extent_of(pairs.rays)});
         const std::vector<StressHit> hits = scene.trace(pairs.rays);
         ASSERT_EQ(hits.size(), plain.size());
         Agreement agreement;
@@ -42,8 +42,8 @@ TEST_P(StressOnDevice, AgreesInEveryFamily) {
         const Geometry geometry = choice.primitive->build(strands, choice.options);
         BoxCheck boxes;
         const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
-        const PairScene scene(device(), *choice.primitive, geometry, range, extent_of(pairs.rays),
-                              &pipelines);
+        const PairScene scene(device(), *choice.primitive, geometry, range,
+                              {.extent = extent_of(pairs.rays), .pipelines = &pipelines});
         Agreement agreement;
         add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
         const StressJudgement judgement = judge_agreement(agreement, choice, family);
@@ -61,7 +61,7 @@ TEST_P(StressOnDevice, RaysLeaveHitsAndShadowRaysAgree) {
         const StressPairs pairs = aimed_pairs(range, surface);
         const Geometry geometry = choice.primitive->build(strands, choice.options);
         const auto points = spawn_points(*choice.primitive, geometry, surface, pairs);
-        const PairScene scene(device(), *choice.primitive, geometry, range, 0, &pipelines);
+        const PairScene scene(device(), *choice.primitive, geometry, range, {.pipelines = &pipelines});
         SpawnTally tally;
         add_spawned(scene, *choice.primitive, surface, range, points, tally);
         EXPECT_GE(tally.rays, 100u) << name;

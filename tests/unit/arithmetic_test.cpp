@@ -11,11 +11,19 @@ TEST(CpuArithmetic, FusesNothingUnasked) {
     EXPECT_TRUE(facts.fuses_fma) << "std::fma rounds once by definition";
     EXPECT_TRUE(facts.keeps_precise) << "compiled with contraction: -ffp-contract=off is missing";
     EXPECT_TRUE(facts.exact_products);
+    EXPECT_FALSE(facts.rounds_loosely()) << facts.to_string();
 }
 
 TEST(CpuArithmetic, SaysWhatIsWrong) {
-    EXPECT_NE((Arithmetic{true, true, false}).to_string().find("NOT exact"), std::string::npos);
-    EXPECT_NE((Arithmetic{false, true, true}).to_string().find("not fused"), std::string::npos);
+    const auto says = [](const Arithmetic& facts, const char* text) {
+        return facts.to_string().find(text) != std::string::npos;
+    };
+    EXPECT_TRUE(says({.fuses_fma = true, .keeps_precise = true}, "NOT exact"));
+    EXPECT_TRUE(says({.keeps_precise = true, .exact_products = true}, "not fused"));
+    EXPECT_TRUE(says({.contracts = true}, "other products are contracted"));
+    EXPECT_TRUE(says({.rough_quotients = true}, "quotients are rough"));
+    EXPECT_TRUE(says({.rough_roots = true}, "roots are rough"));
+    EXPECT_FALSE(Arithmetic().rounds_loosely());
 }
 
 }  // namespace
