@@ -158,9 +158,17 @@ FUNCTION real prhi_inside(real4 c) {
     return (c.w - distance) * (c.w + distance);
 }
 
+// Whether a step's entry lies on its cone. Where a curve stands still while its radius changes the cone is so
+// blunt that rounding takes all digits of the entry.
+FUNCTION bool prhi_is_on_cone(PrhiPoint p, PrhiStep found) {
+    real radius = p.c.w + abs(p.d.w * found.dv);
+    real along_squared = found.dv * found.dv * dot(real3(p.d), real3(p.d));
+    return p.c.x * p.c.x + p.c.y * p.c.y + found.s * found.s <= real(1.21) * (radius * radius + along_squared);
+}
+
 // The hit on the tube itself: the cone's own step, then one of Newton's on w - s z' = 0, where
-// s^2 = r^2 - x^2 - y^2.
-FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep found) {
+// s^2 = r^2 - x^2 - y^2. False where there is none after all.
+FUNCTION bool prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep found, OUT(PrhiHit) hit) {
     // The depth of the entry as the next point will see it; on thin hair the step is many radii long.
     real side = found.s > found.dv * p.d.z ? real(1) : real(-1);
     // Possibly beyond the piece by the tolerance: neighbours overlap rather than leave a crack.
@@ -172,25 +180,27 @@ FUNCTION PrhiHit prhi_polish(PrhiCubic cubic, real v, PrhiPoint p, PrhiStep foun
                  better.c.y * better.second.y - s * better.second.z -
                  better.d.z * (better.c.w * better.d.w - w) / s;
     real step = (s * better.d.z - w) / slope;
-    // So short that the derivative carries the point along. Longer ones (or NaN) come from the silhouette,
-    // where entry and exit meet and Newton has no say.
-    if (step * step * dot(real3(better.d), real3(better.d)) <= real(0.01) * s * s) {
+    // So short that the derivative carries point and radius along. Longer ones (or NaN) come from the
+    // silhouette, where entry and exit meet and Newton has no say.
+    real change = dot(real3(better.d), real3(better.d)) + better.d.w * better.d.w;
+    if (step * step * change <= real(0.01) * s * s) {
         better_v = better_v + step;
         better.c = better.c + better.d * step;
     }
     real inside = prhi_inside(better.c);
-    PrhiHit hit;
+    bool is_hit = true;
     if (inside >= real(0)) {
         s = side * sqrt(inside);
         hit.v = better_v;
         hit.z = better.c.z + s;
         hit.normal = prhi_normal(better, s, true);
     } else {
+        is_hit = prhi_is_on_cone(p, found);
         hit.v = v;
         hit.z = p.c.z + found.s;
         hit.normal = prhi_normal(p, found.s, true);
     }
-    return hit;
+    return is_hit && hit.normal.z <= real(0);
 }
 
 // Iterates from the end that is nearer along the ray and, when that fails, from the other. Hits in front of
@@ -254,10 +264,7 @@ FUNCTION bool prhi_side(PrhiCubic cubic, real low, real high, real z_min, uint i
     PrhiPoint p;
     PrhiStep found;
     if (!prhi_search(cubic, low, high, z_min, iterations, robust, v, p, found)) return false;
-    if (robust) {
-        hit = prhi_polish(cubic, v, p, found);
-        return hit.normal.z <= real(0);
-    }
+    if (robust) return prhi_polish(cubic, v, p, found, hit);
     hit.z = p.c.z + found.s;
     hit.v = v;
     hit.normal = prhi_normal(p, found.s, false);

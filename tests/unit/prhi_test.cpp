@@ -356,6 +356,46 @@ TEST(Prhi, DoesNotDependOnTheUnit) {
         }
 }
 
+/// How many radii (the largest) a hit lies outside of the box around control points and radii; 0: inside.
+double radii_outside(const Curve& curve, const Ray& ray, double t) {
+    double most = 0, largest = 0;
+    for (const glm::vec4& p : curve) largest = std::max(largest, double(p.w));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double at = double(ray.origin[axis]) + t * double(ray.direction[axis]);
+        double low = curve[0][axis], high = low;
+        for (const glm::vec4& p : curve) {
+            low = std::min(low, double(p[axis]));
+            high = std::max(high, double(p[axis]));
+        }
+        most = std::max({most, low - largest - at, at - high - largest});
+    }
+    return most / largest;
+}
+
+TEST(Prhi, HitsNothingOutsideOfItsBoxWhereACurveStandsStillAsItsRadiusChanges) {
+    for (const char* label : {"prhi", "prhi:splits=1"}) {
+        const PrimitiveChoice choice = parse_primitive(label, "flat");
+        size_t hits = 0;
+        for (uint64_t i = 0; i < 60'000; ++i) {
+            Random random(11, 0, i);
+            const auto place = [&] {
+                return glm::vec3(random.signed_unit(), random.signed_unit(), random.signed_unit());
+            };
+            const auto radius = [&] { return static_cast<float>(random.range(0.01, 0.1)); };
+            const glm::vec3 end = place(), start = end + place() * (i % 2 == 0 ? 0.3f : 0.01f);
+            const Curve curve{glm::vec4(start, radius()), {end, radius()}, {end, radius()}, {end, radius()}};
+            Ray ray;
+            ray.direction = place();
+            ray.origin = end + place() * 0.1f - 9.f * ray.direction;
+            const auto hit = nearest<float>(choice, curve, ray);
+            if (!hit.found) continue;
+            ++hits;
+            ASSERT_LT(radii_outside(curve, ray, hit.hit.t), 0.1) << label << " " << i;
+        }
+        EXPECT_GT(hits, 1000u);
+    }
+}
+
 TEST(Prhi, SplitsWhatTurnsTooFar) {
     const Curve line{glm::vec4(0, 0, 0, 0.1f), {1, 0, 0, 0.1f}, {2, 0, 0, 0.1f}, {3, 0, 0, 0.1f}};
     const Curve loop{glm::vec4(0, 0, 0, 0.1f), {3, 3, 0, 0.1f}, {-3, 3, 0, 0.1f}, {0.1f, 0, 0, 0.1f}};
