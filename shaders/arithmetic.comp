@@ -11,15 +11,15 @@ layout(local_size_x = 64) in;
 struct Probe {
     vec4 origin;      // a factor in w
     vec4 direction;   // - fl(factor * direction.x) in w
-    vec4 reference;
-    vec4 middle;
+    vec4 reference;   // a base in w
+    vec4 middle;      // - fl(base^2)
 };
 
 struct Answer {
     vec4 fma_residue;     // of the products factor * direction; w: direction.x * factor + direction.w
     vec4 dekker_residue;  // of the same; w: t of the frame's foot
     vec4 foot;            // of the ray frame
-    vec4 plain_foot;      // the same without its corrections; w: as fma_residue.w, free to be contracted
+    vec4 plain_foot;      // the same without its corrections; w: base^2 + middle.w, free to be contracted
     vec4 rounded;         // factor / direction.x, sqrt(factor)
 };
 
@@ -41,7 +41,7 @@ void main() {
     precise vec3 product = direction * factor;
     precise vec3 fma_residue = fma(vec3(factor), direction, -product);
     precise float sum = direction.x * factor + probe.direction.w;
-    float loose_sum = direction.x * factor + probe.direction.w;
+    float loose_sum = probe.reference.w * probe.reference.w + probe.middle.w;
     RayFrame frame = make_ray_frame(probe.origin.xyz, direction, probe.reference.xyz, probe.middle.xyz);
     precise vec3 plain_foot = (probe.origin.xyz - probe.reference.xyz) + direction * frame.t_foot;
     Answer answer;

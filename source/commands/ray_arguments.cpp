@@ -93,7 +93,7 @@ class RaySets::Maker {
           curves_(curves),
           arguments_(arguments),
           size_{size.width, size.height, 1},
-          common_(common_surfaces(scene, caps)) {
+          caps_(caps) {
         if (!scene.occluder.empty()) occluder_.emplace(scene.occluder);
     }
 
@@ -110,7 +110,9 @@ class RaySets::Maker {
         cut(set.rays);
         set.sample = error_sample(set.rays.rays.size(), arguments_.error_rays);
         set.sample_rays = selected(set.rays, set.sample);
-        set.common = make_scene_reference(scene_, common_, curves_, set.sample_rays);
+        // Surfaces of large scenes take long: none for no rays.
+        if (!set.sample.empty())
+            set.common = make_scene_reference(scene_, common(), curves_, set.sample_rays);
         return set;
     }
 
@@ -137,7 +139,7 @@ class RaySets::Maker {
         if (info.needs_primary_hits && primary_.rays.empty()) {
             primary_ = primary_rays(*camera_, size_, arguments_.seed);
             cut(primary_);
-            primary_hits_ = make_scene_hits(scene_, common_, primary_.rays);
+            primary_hits_ = make_scene_hits(scene_, common(), primary_.rays);
         }
         MeasuredRays set;
         set.rays = make_rays(info, {curves_,
@@ -154,6 +156,11 @@ class RaySets::Maker {
         return set;
     }
 
+    std::span<const Surface> common() {
+        if (common_.empty()) common_ = common_surfaces(scene_, caps_);
+        return common_;
+    }
+
     /// The body under the hair ends rays, the same for every primitive.
     void cut(Rays& rays) const {
         if (occluder_) occluder_->cut(rays.rays);
@@ -163,7 +170,8 @@ class RaySets::Maker {
     const Curves& curves_;
     const RayArguments& arguments_;
     PictureSize size_;
-    std::vector<Surface> common_;
+    Caps caps_;
+    std::vector<Surface> common_;  // made when something is first measured against it
     std::optional<Occluder> occluder_;
     std::optional<Camera> camera_;
     Rays primary_;

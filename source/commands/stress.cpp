@@ -65,8 +65,7 @@ void run_choice(const PrimitiveChoice& choice, const Curves& curves, const Stres
     for (size_t d = 0; d < devices.size(); ++d) {
         StressTally& tally = cells[d].tally;
         if (devices[d].is_gpu()) {
-            const PairScene scene =
-                devices[d].scene(primitive, geometry, pairs.range, extent_of(pairs.rays));
+            const PairScene scene = devices[d].scene(primitive, geometry, pairs.range, extent_of(pairs.rays));
             const std::vector<StressHit> hits = scene.trace(pairs.rays);
             add_errors(pairs, hits, keep, tally);
             add_difference(curves, pairs.rays, hits, plain.get(), tally.agreement);
@@ -168,8 +167,8 @@ void run_family(const StressRun& run, const StressFamily& family, const Options&
     for (size_t i = 0; i < cells.size(); ++i) {
         StressCell& cell = cells[i];
         auto limits = stress_limits(cell.primitive->name, family, cell.precise);
-        const bool is_driver = devices[i % devices.size()].is_gpu() &&
-                               cell.primitive->shaders.intersection.empty();
+        const bool is_driver =
+            devices[i % devices.size()].is_gpu() && cell.primitive->shaders.intersection.empty();
         if (is_driver && limits) limits->judged = false, limits->reason = "the driver's own triangle test";
         cell.judgement = judge(cell.tally, limits, family, cell.precise);
         if (keep > 0) write_worst(cell, run.seed, options.worst_folder);
@@ -216,9 +215,10 @@ RunCommand declare(CLI::App& app) {
                    "cpu-float, cpu-double or a Vulkan device (see strandlab info), repeatable (default: the "
                    "first two; what --agree is about: the best Vulkan device)")
         ->allow_extra_args(false);
-    app.add_option("--no-skip", options->no_skips,
-                   "force a skip of Vulkan devices off, repeatable (see strandlab bench --explain): rounding, "
-                   "to have them round as C++ does")
+    app.add_option(
+           "--no-skip", options->no_skips,
+           "force a skip of Vulkan devices off, repeatable (see strandlab bench --explain): rounding, "
+           "to have them round as C++ does")
         ->allow_extra_args(false);
     app.add_option("--pairs", options->pairs, "pairs of every family; 1e8 takes a night")
         ->capture_default_str();

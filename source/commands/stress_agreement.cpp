@@ -82,7 +82,8 @@ int run_agreement(const StressRun& run) {
         cells.finish([](const Cell& cell) { return judge_agreement(cell.tally, *cell.choice, *cell.family); },
                      table_of, add_json);
     fmt::print("\nAllowed: max(4 ulp of t, 1e-4 radii) for 99.9 % of hits; other answers count as beyond.\n");
-    for (const auto& device : run.devices) fmt::print("{}: {}\n", device->name(), rounding_text(run, *device));
+    for (const auto& device : run.devices)
+        fmt::print("{}: {}\n", device->name(), rounding_text(run, *device));
     return code;
 }
 

@@ -31,6 +31,8 @@ std::vector<ArithmeticProbe> product_probes() {
         probe.factor = static_cast<float>(random.range(1, 1000));
         probe.minus_product = -(probe.factor * probe.direction[0]);
         probe.middle = {1, 0, 0};
+        probe.base = static_cast<float>(random.range(1, 1000));
+        probe.minus_square = -(probe.base * probe.base);
     }
     return probes;
 }
@@ -76,7 +78,8 @@ std::string Arithmetic::to_string() const {
                        fuses_fma ? "fused" : "not fused", contracts ? "other products are contracted, " : "",
                        keeps_precise ? "not " : "",
                        exact_products ? "exact" : "NOT exact: expect errors far from the origin",
-                       rough_quotients ? ", quotients are rough" : "", rough_roots ? ", roots are rough" : "");
+                       rough_quotients ? ", quotients are rough" : "",
+                       rough_roots ? ", roots are rough" : "");
 }
 
 std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<const ArithmeticProbe> probes,
@@ -121,7 +124,8 @@ Arithmetic arithmetic_of_cpu() {
         }
         const float x = at_run_time(probes[i].direction[0]);
         answers[i].sum = factor * x + at_run_time(probes[i].minus_product);
-        answers[i].loose_sum = answers[i].sum;
+        const float base = at_run_time(probes[i].base);
+        answers[i].loose_sum = base * base + at_run_time(probes[i].minus_square);
         answers[i].quotient = factor / x;
         answers[i].root = std::sqrt(factor);
     }

@@ -37,9 +37,9 @@ struct ArithmeticProbe {
     std::array<float, 3> direction{};
     float minus_product = 0;  // - fl(factor * direction[0])
     std::array<float, 3> reference{};
-    float unused_0 = 0;
+    float base = 1;
     std::array<float, 3> middle{};
-    float unused_1 = 0;
+    float minus_square = 0;  // - fl(base^2)
 };
 static_assert(sizeof(ArithmeticProbe) == 64);
 
@@ -52,9 +52,9 @@ struct ArithmeticAnswer {
     std::array<float, 3> foot{};  // that point relative to the reference, as the frame has it
     float unused_0 = 0;
     std::array<float, 3> plain_foot{};  // and without the frame's corrections
-    float loose_sum = 0;   // as sum, but the driver may contract it
-    float quotient = 0;    // factor / direction[0]
-    float root = 0;        // of factor
+    float loose_sum = 0;                // base^2 + minus_square, which the driver may contract
+    float quotient = 0;                 // factor / direction[0]
+    float root = 0;                     // of factor
     float unused_1[2] = {};
 };
 static_assert(sizeof(ArithmeticAnswer) == 80);

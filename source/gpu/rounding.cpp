@@ -1,12 +1,11 @@
 #include "gpu/rounding.h"
 
-#include <spirv/unified1/GLSL.std.450.h>
-#include <spirv/unified1/spirv.hpp11>
-
 #include <cassert>
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <spirv/unified1/GLSL.std.450.h>
+#include <spirv/unified1/spirv.hpp11>
 
 namespace strandlab {
 namespace {
@@ -88,21 +87,19 @@ class Rounding {
     void rewrite(const Instruction& i) {
         const bool is_float = i.words.size() > 3 && floats_.count(i.words[1]) != 0;
         switch (is_float ? i.op : spv::Op::OpNop) {
-        case spv::Op::OpFAdd:
-        case spv::Op::OpFSub:
-        case spv::Op::OpFMul:
-        case spv::Op::OpVectorTimesScalar:
-            mark(i.words[2]);
-            return functions_.add(i);
-        case spv::Op::OpFDiv:
-            if (mends_) return quotient(i.words[1], i.words[2], i.words[3], i.words[4]);
-            mark(i.words[2]);
-            return functions_.add(i);
-        case spv::Op::OpExtInst:
-            if (mends_ && i.words[3] == built_in_ && i.words[4] == GLSLstd450Sqrt)
-                return root(i.words[1], i.words[2], i.words[5]);
-            return functions_.add(i);
-        default: return functions_.add(i);
+            case spv::Op::OpFAdd:
+            case spv::Op::OpFSub:
+            case spv::Op::OpFMul:
+            case spv::Op::OpVectorTimesScalar: mark(i.words[2]); return functions_.add(i);
+            case spv::Op::OpFDiv:
+                if (mends_) return quotient(i.words[1], i.words[2], i.words[3], i.words[4]);
+                mark(i.words[2]);
+                return functions_.add(i);
+            case spv::Op::OpExtInst:
+                if (mends_ && i.words[3] == built_in_ && i.words[4] == GLSLstd450Sqrt)
+                    return root(i.words[1], i.words[2], i.words[5]);
+                return functions_.add(i);
+            default: return functions_.add(i);
         }
     }
 

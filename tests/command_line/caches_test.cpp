@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -21,21 +22,27 @@ class CachesTest : public CommandLineTest {
                             "--primitive",  "prhi",
                             "--resolution", "64x36",
                             "--repeat",     "1",
-                            "--error-rays", "500",
                             "--leaf-order", "median",
                             "--no-embree",  "--quiet",
                             "--json",       file};
         arguments.insert(arguments.end(), more.begin(), more.end());
+        if (std::find(more.begin(), more.end(), "--error-rays") == more.end())
+            arguments.insert(arguments.end(), {"--error-rays", "500"});
         expect_success(run(arguments));
         return nlohmann::json::parse(read(file));
     }
 
+    std::vector<fs::directory_entry> entries() const {
+        std::vector<fs::directory_entry> all;
+        for (const auto& entry : fs::recursive_directory_iterator(path("cache")))
+            if (entry.path().extension() == ".entry") all.push_back(entry);
+        return all;
+    }
+
     /// Changes a byte of every entry; how many there are.
     size_t damage_all() const {
-        size_t count = 0;
-        for (const auto& entry : fs::recursive_directory_iterator(path("cache"))) {
-            if (entry.path().extension() != ".entry") continue;
-            ++count;
+        const std::vector<fs::directory_entry> all = entries();
+        for (const auto& entry : all) {
             std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
             const auto middle = static_cast<std::streamoff>(entry.file_size() / 2);
             file.seekg(middle);
@@ -43,7 +50,7 @@ class CachesTest : public CommandLineTest {
             file.seekp(middle);
             file.put(byte);
         }
-        return count;
+        return all.size();
     }
 };
 
@@ -60,6 +67,14 @@ TEST_F(CachesTest, KeepWhatIsCostlyAndRebuildWhatIsDamaged) {
     EXPECT_EQ(without["time"]["order_cached"], false);
     for (const nlohmann::json& other : {second, third, fourth, without})
         EXPECT_EQ(first["model_error"], other["model_error"]);
+}
+
+TEST_F(CachesTest, WithoutErrorRaysThereIsNoReference) {
+    SKIP_WITHOUT_DEVICE();
+    row("without.jsonl", {"--error-rays", "0"});
+    const size_t without = entries().size();
+    row("with.jsonl");
+    EXPECT_EQ(entries().size(), without + 2) << "the primitive's own surface and the common one";
 }
 
 TEST_F(CachesTest, TheTraversalIsMeasuredOnce) {

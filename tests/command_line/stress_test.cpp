@@ -94,11 +94,16 @@ TEST_F(StressTest, ADeviceAgreesWithTheFloatVersion) {
     ASSERT_EQ(cells.size(), 8u);
     for (const Json& cell : cells)
         EXPECT_EQ(cell.at("verdict"), cell.at("primitive") == "dots" ? "not judged" : "holds") << cell;
+    const Outcome alike = run({"stress", "--agree", "cpu-float", "--pairs", "300", "--family", "grazing",
+                               "--primitive", "lss", "--no-skip", "rounding", "--quiet"});
+    expect_success(alike);
+    EXPECT_NE(alike.output.find("as C++ does"), std::string::npos) << alike.output;
 }
 
 TEST_F(StressTest, SaysWhatIsWrongWithItsOptions) {
     expect_failure(run({"stress", "--watertight", "--self-intersection"}), 2,
                    {"--watertight", "one of them"});
+    expect_failure(run({"stress", "--no-skip", "thinking"}), 2, {"--no-skip thinking", "rounding"});
     expect_failure(run({"stress", "--agree", "cpu-double"}), 2, {"--agree cpu-double", "cpu-float"});
     expect_failure(run({"stress", "--agree", "cpu-float", "--device", "cpu-float"}), 2,
                    {"no Vulkan device", "--device"});

@@ -9,8 +9,12 @@
 namespace strandlab {
 namespace {
 
-/// A device that is said to round loosely, so that "rounding" can be forced off.
-Arithmetic loose(bool fuses_fma) { return {.fuses_fma = fuses_fma, .contracts = true}; }
+/// What the device does, said to round loosely in any case: so that "rounding" can be forced off.
+Arithmetic loose(const Device& device) {
+    Arithmetic arithmetic = arithmetic_of(device);
+    arithmetic.contracts = true;
+    return arithmetic;
+}
 
 class RoundedIntersector : public GpuTest, public testing::WithParamInterface<const char*> {};
 
@@ -22,8 +26,9 @@ TEST_P(RoundedIntersector, AnswersAsCppDoes) {
     const Geometry geometry = choice.primitive->build(strands, choice.options);
     BoxCheck boxes;
     const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
-    const PairScene scene(device(), *choice.primitive, geometry, range,
-                          {.extent = extent_of(pairs.rays), .arithmetic = loose(false), .no_skips = {"rounding"}});
+    const PairScene scene(
+        device(), *choice.primitive, geometry, range,
+        {.extent = extent_of(pairs.rays), .arithmetic = loose(device()), .no_skips = {"rounding"}});
     Agreement agreement;
     add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
     EXPECT_GT(agreement.both_hit, 900u);
@@ -41,7 +46,8 @@ TEST_P(RoundedIntersector, IsValidWithMendedQuotients) {
     const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
     PairTracing how{.extent = extent_of(pairs.rays), .no_skips = {"rounding"}};
     // Where fma is not fused mending gains nothing, and loses next to nothing.
-    how.arithmetic = loose(true);
+    how.arithmetic = loose(device());
+    how.arithmetic.fuses_fma = true;
     how.no_skips.emplace_back("splitting");
     const PairScene scene(device(), *choice.primitive, geometry, range, how);
     Agreement agreement;
