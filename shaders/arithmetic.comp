@@ -32,6 +32,9 @@ layout(push_constant) uniform PushConstants {
     uint count;
 };
 
+// A function of its own: the compiler marks what is near to something precise.
+float loose_square_sum(float base, float minus_square) { return base * base + minus_square; }
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= count) return;
@@ -41,7 +44,7 @@ void main() {
     precise vec3 product = direction * factor;
     precise vec3 fma_residue = fma(vec3(factor), direction, -product);
     precise float sum = direction.x * factor + probe.direction.w;
-    float loose_sum = probe.reference.w * probe.reference.w + probe.middle.w;
+    float loose_sum = loose_square_sum(probe.reference.w, probe.middle.w);
     RayFrame frame = make_ray_frame(probe.origin.xyz, direction, probe.reference.xyz, probe.middle.xyz);
     precise vec3 plain_foot = (probe.origin.xyz - probe.reference.xyz) + direction * frame.t_foot;
     Answer answer;
