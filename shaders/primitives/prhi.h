@@ -163,7 +163,8 @@ FUNCTION real prhi_inside(real4 c) {
 FUNCTION bool prhi_is_on_cone(PrhiPoint p, PrhiStep found) {
     real radius = p.c.w + abs(p.d.w * found.dv);
     real along_squared = found.dv * found.dv * dot(real3(p.d), real3(p.d));
-    return p.c.x * p.c.x + p.c.y * p.c.y + found.s * found.s <= real(1.21) * (radius * radius + along_squared);
+    return p.c.x * p.c.x + p.c.y * p.c.y + found.s * found.s <=
+           real(1.21) * (radius * radius + along_squared);
 }
 
 // The hit on the tube itself: the cone's own step, then one of Newton's on w - s z' = 0, where

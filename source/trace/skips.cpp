@@ -16,7 +16,8 @@ constexpr Skip all[] = {
     {"early-out", "everything else of an intersector", "where the ray passes the piece by"},
     {"gentle", "the search for the nearest of several entries", "where a ray crosses a piece gently"},
     {"splitting", "Dekker's splitting in the ray frame", "where fma is fused"},
-    {"rounding", "rounding every operation by itself, as C++ does", "where the driver fuses and approximates"},
+    {"rounding", "rounding every operation by itself, as C++ does",
+     "where the driver fuses and approximates"},
     {reach_skip, "strands that no ray can meet", "where --cull reach allows it"},
     {detail_skip, "strands below a tolerance: a model error", "where --cull detail=LENGTH allows it"},
 };

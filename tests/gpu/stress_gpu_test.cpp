@@ -19,7 +19,8 @@ TEST_P(StressOnDevice, AgreesWithTheFloatVersion) {
         StressTally tally;
         const auto plain =
             intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, tally.boxes);
-        const PairScene scene(device(), *choice.primitive, geometry, range, {.extent = extent_of(pairs.rays)});
+        const PairScene scene(device(), *choice.primitive, geometry, range,
+                              {.extent = extent_of(pairs.rays)});
         const std::vector<StressHit> hits = scene.trace(pairs.rays);
         ASSERT_EQ(hits.size(), plain.size());
         Agreement agreement;
