@@ -33,6 +33,7 @@ vec3 glm_cross(vec3 a, vec3 b) { return a.yzx * b.zxy - b.yzx * a.zxy; }
 vec3 glm_normalize(vec3 v) { return v * (1.0 / sqrt(glm_dot(v, v))); }
 float glm_mix(float a, float b, float u) { return a * (1.0 - u) + b * u; }
 vec4 glm_mix(vec4 a, vec4 b, float u) { return a * (1.0 - u) + b * u; }
+vec4 native_mix(vec4 a, vec4 b, float u) { return mix(a, b, u); }  // the driver's own
 #define dot glm_dot
 #define cross glm_cross
 #define normalize glm_normalize

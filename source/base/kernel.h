@@ -55,4 +55,9 @@ using glm::normalize;
 using glm::sign;
 using glm::sqrt;
 
+template <class Vector, class Real>
+Vector native_mix(const Vector& a, const Vector& b, Real u) {
+    return glm::mix(a, b, u);
+}
+
 }  // namespace strandlab::kernels

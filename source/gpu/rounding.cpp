@@ -1,5 +1,6 @@
 #include "gpu/rounding.h"
 
+#include <bit>
 #include <cassert>
 #include <initializer_list>
 #include <map>
@@ -33,9 +34,12 @@ struct Section {
         words.insert(words.end(), instruction.words.begin(), instruction.words.end());
     }
     void add(spv::Op op, std::initializer_list<uint32_t> operands) {
+        add(op, std::span<const uint32_t>(operands.begin(), operands.size()));
+    }
+    void add(spv::Op op, std::span<const uint32_t> operands) {
         const auto length = static_cast<uint32_t>(operands.size() + 1);
         words.push_back(length << spv::WordCountShift | static_cast<uint32_t>(op));
-        words.insert(words.end(), operands);
+        words.insert(words.end(), operands.begin(), operands.end());
     }
     std::vector<uint32_t> words;
 };
@@ -78,7 +82,10 @@ class Rounding {
 
     void note_type(const Instruction& i) {
         if (i.op == spv::Op::OpTypeBool) bools_[1] = i.words[1];
-        if (i.op == spv::Op::OpTypeFloat && i.words[2] == 32) floats_[i.words[1]] = 1;
+        if (i.op == spv::Op::OpTypeFloat && i.words[2] == 32) {
+            scalar_ = i.words[1];
+            floats_[scalar_] = 1;
+        }
         if (i.op != spv::Op::OpTypeVector) return;
         if (floats_.count(i.words[2]) != 0) floats_[i.words[1]] = i.words[3];
         if (bools_.count(1) != 0 && bools_[1] == i.words[2]) bools_[i.words[3]] = i.words[1];
@@ -96,6 +103,8 @@ class Rounding {
                 mark(i.words[2]);
                 return functions_.add(i);
             case spv::Op::OpExtInst:
+                if (i.words[3] == built_in_ && i.words[4] == GLSLstd450FMix)
+                    return mix(i.words[1], i.words[2], i.words[5], i.words[6], i.words[7]);
                 if (mends_ && i.words[3] == built_in_ && i.words[4] == GLSLstd450Sqrt)
                     return root(i.words[1], i.words[2], i.words[5]);
                 return functions_.add(i);
@@ -113,6 +122,15 @@ class Rounding {
         functions_.add(spv::Op::OpExtInst, {type, rough, built_in_, GLSLstd450Sqrt, square});
         const uint32_t twice = marked(spv::Op::OpFAdd, type, rough, rough);
         correct(type, result, rough, residue(type, rough, rough, square), twice);
+    }
+
+    /// a (1 - u) + b u, as GLM has it.
+    void mix(uint32_t type, uint32_t result, uint32_t a, uint32_t b, uint32_t u) {
+        const uint32_t rest = marked(spv::Op::OpFSub, type, one_of(type), u);
+        const uint32_t first = marked(spv::Op::OpFMul, type, a, rest);
+        const uint32_t second = marked(spv::Op::OpFMul, type, b, u);
+        mark(result);
+        functions_.add(spv::Op::OpFAdd, {type, result, first, second});
     }
 
     /// whole - a b, rounded once.
@@ -166,11 +184,27 @@ class Rounding {
         return id;
     }
 
+    uint32_t one_of(uint32_t type) {
+        uint32_t& id = ones_[type];
+        if (id != 0) return id;
+        const uint32_t scalar = floats_[type] == 1 ? 0 : one_of(scalar_);
+        id = made();
+        if (floats_[type] == 1) {
+            declarations_.add(spv::Op::OpConstant, {type, id, std::bit_cast<uint32_t>(1.0f)});
+            return id;
+        }
+        std::vector<uint32_t> operands{type, id};
+        operands.insert(operands.end(), floats_[type], scalar);
+        declarations_.add(spv::Op::OpConstantComposite, operands);
+        return id;
+    }
+
     bool mends_, in_head_ = true, in_functions_ = false;
-    uint32_t bound_, built_in_ = 0;
-    std::map<uint32_t, uint32_t> floats_;  // types: how many components
-    std::map<uint32_t, uint32_t> bools_;   // types by how many components
-    std::map<uint32_t, uint32_t> zeros_;   // by type
+    uint32_t bound_, built_in_ = 0, scalar_ = 0;  // scalar: the type of 32 bits
+    std::map<uint32_t, uint32_t> floats_;         // types: how many components
+    std::map<uint32_t, uint32_t> bools_;          // types by how many components
+    std::map<uint32_t, uint32_t> zeros_;          // by type
+    std::map<uint32_t, uint32_t> ones_;           // by type
     std::set<uint32_t> marked_;
     Section head_, marks_, declarations_, functions_;
 };

@@ -12,7 +12,8 @@ namespace strandlab {
 /// devices that fuse fma and round quotients or roots badly: these are corrected by the residue that fma
 /// gives (Markstein, "Computation of elementary functions on the IBM RISC System/6000 processor", 1990), to
 /// the nearest float for all but about one in a million, and for numbers whose residues do not underflow.
-/// Built-in functions but sqrt are left alone: the shaders write out those that round (shared/portable.h).
+/// Of built-in functions sqrt and mix are written out; the shaders do without others that round
+/// (shared/portable.h).
 std::vector<uint32_t> rounded_alike(std::span<const uint32_t> module, bool mends_quotients);
 
 }  // namespace strandlab
