@@ -305,7 +305,7 @@ FUNCTION bool prhi_stands_still(real4 at, real4 near, real4 middle, real4 far) {
 }
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
-FUNCTION bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
+SELDOM bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
                              real4 p2, real4 p3, real first_u, real last_u, bool robust, uint iterations,
                              bool cap_start, bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     RayFrame frame;

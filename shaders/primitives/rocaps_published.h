@@ -95,7 +95,7 @@ FUNCTION real published_foot(FrameCubic c, real z, real u, real first_step) {
 }
 
 // Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax.
-FUNCTION bool rocaps_published(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
+SELDOM bool rocaps_published(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
                                real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
                                bool ends_strand, bool open_ends, OUT(real) t, OUT(real) u,
                                OUT(real3) normal) {

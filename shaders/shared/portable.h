@@ -14,6 +14,8 @@
 // Every local of a function with error-free transformations carries the mark: it does not reach callees.
 #define PRECISE precise
 #define FUNCTION
+// A function that few leaves need: out of the way of what all need.
+#define SELDOM
 // Before loops whose copies would cost registers and instruction cache.
 #define ROLLED [[dont_unroll]]
 #ifndef COUNT_ITERATION
