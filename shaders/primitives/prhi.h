@@ -305,9 +305,9 @@ FUNCTION bool prhi_stands_still(real4 at, real4 near, real4 middle, real4 far) {
 }
 
 // One piece of a curve against a ray: entering hits with tmin <= t < tmax. u counts along the whole curve.
-SELDOM bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1,
-                             real4 p2, real4 p3, real first_u, real last_u, bool robust, uint iterations,
-                             bool cap_start, bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
+SELDOM bool prhi_intersect(real3 origin, real3 direction, real tmin, real tmax, real4 p0, real4 p1, real4 p2,
+                           real4 p3, real first_u, real last_u, bool robust, uint iterations, bool cap_start,
+                           bool cap_end, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     RayFrame frame;
     if (robust) {
         CurvePowers powers = curve_powers(p1 - p0, p2 - p0, p3 - p0);

@@ -96,9 +96,8 @@ FUNCTION real published_foot(FrameCubic c, real z, real u, real first_step) {
 
 // Piece `piece` of `pieces` of a curve against a ray: entering hits with tmin <= t < tmax.
 SELDOM bool rocaps_published(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
-                               real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
-                               bool ends_strand, bool open_ends, OUT(real) t, OUT(real) u,
-                               OUT(real3) normal) {
+                             real4 c2, real4 c3, uint piece, uint pieces, bool begins_strand,
+                             bool ends_strand, bool open_ends, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     // The frame: x across the plane of the ray and the curve's middle tangent, z along the ray.
     real size = sqrt(dot(direction, direction));
     real3 n = direction / size;

@@ -215,10 +215,9 @@ FUNCTION real largest_bend(FrameCubic c, real a, real b) {
 
 // The piece [first_u, last_u] of a curve against a ray: entering hits with tmin <= t < tmax. epsilon bounds
 // how far the axis of a capsule may leave the curve, in radii.
-SELDOM bool rocaps_verified(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1,
-                              real4 c2, real4 c3, real first_u, real last_u, bool begins_strand,
-                              bool ends_strand, bool open_ends, real epsilon, OUT(real) t, OUT(real) u,
-                              OUT(real3) normal) {
+SELDOM bool rocaps_verified(real3 origin, real3 direction, real tmin, real tmax, real4 c0, real4 c1, real4 c2,
+                            real4 c3, real first_u, real last_u, bool begins_strand, bool ends_strand,
+                            bool open_ends, real epsilon, OUT(real) t, OUT(real) u, OUT(real3) normal) {
     real3 reference = real3(c0);
     real3 middle = ((real3(c1) - reference) + (real3(c2) - reference) + (real3(c3) - reference)) * real(0.25);
     RayFrame frame = make_ray_frame(origin, direction, reference, middle);
