@@ -190,7 +190,7 @@ int run_errors(const StressRun& run, const Options& options) {
     }
     std::fputs(stress_table(all).c_str(), stdout);
     std::fputs(stress_summary(all).c_str(), stdout);
-    if (!options.json.empty()) write_file(options.json, stress_json(all, options.seed));
+    if (!options.json.empty()) write_file(options.json, stress_json(all, options.seed, run.no_skips));
     if (!options.heat_map.empty()) write_file(options.heat_map, stress_heat_map(all));
     const bool fails = std::any_of(all.begin(), all.end(), [](const StressCell& cell) {
         return cell.judgement.verdict == StressVerdict::fails;

@@ -54,6 +54,7 @@ class DeviceCells {
             object["primitive"] = cell.choice->label();
             object["device"] = cell.device->name();
             object["seed"] = run_.seed;
+            object["no_skips"] = run_.no_skips;
             add_json(cell, object);
             object["verdict"] = verdict_text(cell.judgement.verdict);
             object["reason"] = cell.judgement.text;

@@ -9,7 +9,7 @@ namespace strandlab {
 
 std::string stress_heat_map(std::span<const StressCell> cells) {
     std::vector<nlohmann::ordered_json> rows;
-    const std::string lines = stress_json(cells, 0);
+    const std::string lines = stress_json(cells, 0, {});
     for (const std::string_view line : split(lines, '\n'))
         if (!line.empty()) rows.push_back(nlohmann::ordered_json::parse(line));
     const auto chart = stress_chart(rows);

@@ -32,13 +32,15 @@ nlohmann::ordered_json octaves_json(const LogHistogram& values) {
     return object;
 }
 
-nlohmann::ordered_json cell_json(const StressCell& cell, uint64_t seed) {
+nlohmann::ordered_json cell_json(const StressCell& cell, uint64_t seed,
+                                 std::span<const std::string> no_skips) {
     const StressTally& t = cell.tally;
     nlohmann::ordered_json object;
     object["family"] = cell.family->name;
     object["primitive"] = cell.label;
     object["device"] = cell.device;
     object["seed"] = seed;
+    object["no_skips"] = no_skips;
     object["pairs"] = t.pairs;
     object["decisive_hits"] = t.hits;
     object["decisive_misses"] = t.misses;
@@ -174,9 +176,10 @@ std::string stress_summary(std::span<const StressCell> cells) {
     return text + folds + failures;
 }
 
-std::string stress_json(std::span<const StressCell> cells, uint64_t seed) {
+std::string stress_json(std::span<const StressCell> cells, uint64_t seed,
+                        std::span<const std::string> no_skips) {
     std::string lines;
-    for (const StressCell& cell : cells) lines += to_line(cell_json(cell, seed)) + "\n";
+    for (const StressCell& cell : cells) lines += to_line(cell_json(cell, seed, no_skips)) + "\n";
     return lines;
 }
 

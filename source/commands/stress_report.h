@@ -48,7 +48,8 @@ std::string stress_table(std::span<const StressCell> cells);
 std::string stress_summary(std::span<const StressCell> cells);
 
 /// One JSON object a line and cell.
-std::string stress_json(std::span<const StressCell> cells, uint64_t seed);
+std::string stress_json(std::span<const StressCell> cells, uint64_t seed,
+                        std::span<const std::string> no_skips);
 
 /// Family x primitive and device as an SVG picture: the shade is the rate of errors, the colour the verdict.
 std::string stress_heat_map(std::span<const StressCell> cells);

@@ -94,9 +94,11 @@ TEST_F(StressTest, ADeviceAgreesWithTheFloatVersion) {
     ASSERT_EQ(cells.size(), 8u);
     for (const Json& cell : cells)
         EXPECT_EQ(cell.at("verdict"), cell.at("primitive") == "dots" ? "not judged" : "holds") << cell;
-    const Outcome alike = run({"stress", "--agree", "cpu-float", "--pairs", "300", "--family", "grazing",
-                               "--primitive", "lss", "--no-skip", "rounding", "--quiet"});
+    const Outcome alike =
+        run({"stress", "--agree", "cpu-float", "--pairs", "300", "--family", "grazing", "--primitive", "lss",
+             "--no-skip", "rounding", "--quiet", "--json", "alike.jsonl"});
     expect_success(alike);
+    EXPECT_EQ(json_lines("alike.jsonl").at(0).at("no_skips"), Json::array({"rounding"}));
     EXPECT_NE(alike.output.find("as C++ does"), std::string::npos) << alike.output;
 }
 
