@@ -297,8 +297,8 @@ void BenchRun::measure_set(Block& block, size_t set, const std::vector<const Pre
         {
             const Hits hits = buffers->hits();
             CaseErrors errors = errors_of(block.input, prepared->choice, rays, selected(hits, rays.sample));
-            row.intersector_error = std::move(errors.own);
-            row.model_error = std::move(errors.model);
+            row.intersector_error = errors.own;
+            row.model_error = errors.model;
             if (!is_within_limits(row)) continue;
             if (!options_.images.empty() && rays.is_picture) {
                 row.images = write_pictures(block, *prepared, rays, hits);
