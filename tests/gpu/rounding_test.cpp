@@ -16,44 +16,41 @@ Arithmetic loose(const Device& device) {
     return arithmetic;
 }
 
-class RoundedIntersector : public GpuTest, public testing::WithParamInterface<const char*> {};
+class RoundedIntersector : public GpuTest, public testing::WithParamInterface<const char*> {
+  protected:
+    /// Rays of a family through the device, its intersector rounded alike, beside the C++ float version.
+    Agreement agreement_in(const char* family, uint64_t count, PairTracing how) const {
+        const StressRange range{&stress_family(family), default_stress_seed, 0, count};
+        const Curves strands = stress_strands(range);
+        const StressPairs pairs = aimed_pairs(range, choice_.primitive->surface(strands, choice_.options));
+        const Geometry geometry = choice_.primitive->build(strands, choice_.options);
+        BoxCheck boxes;
+        const auto plain = intersect_pairs(*choice_.primitive, geometry, pairs, Precision::single, boxes);
+        how.extent = extent_of(pairs.rays);
+        how.no_skips.emplace_back("rounding");
+        const PairScene scene(device(), *choice_.primitive, geometry, range, how);
+        Agreement agreement;
+        add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
+        return agreement;
+    }
+
+    PrimitiveChoice choice_ = parse_primitive(GetParam());
+};
 
 TEST_P(RoundedIntersector, AnswersAsCppDoes) {
-    const PrimitiveChoice choice = parse_primitive(GetParam());
-    const StressRange range{&stress_family("grazing"), default_stress_seed, 0, 2000};
-    const Curves strands = stress_strands(range);
-    const StressPairs pairs = aimed_pairs(range, choice.primitive->surface(strands, choice.options));
-    const Geometry geometry = choice.primitive->build(strands, choice.options);
-    BoxCheck boxes;
-    const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
-    const PairScene scene(
-        device(), *choice.primitive, geometry, range,
-        {.extent = extent_of(pairs.rays), .arithmetic = loose(device()), .no_skips = {"rounding"}});
-    Agreement agreement;
-    add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
+    const Agreement agreement = agreement_in("grazing", 2000, {.arithmetic = loose(device())});
     EXPECT_GT(agreement.both_hit, 900u);
     EXPECT_EQ(agreement.only_device + agreement.only_cpu, 0u);
     EXPECT_EQ(agreement.ulps.quantile(1), 0) << "the same bits";
 }
 
 TEST_P(RoundedIntersector, IsValidWithMendedQuotients) {
-    const PrimitiveChoice choice = parse_primitive(GetParam());
-    const StressRange range{&stress_family("gentle"), default_stress_seed, 0, 500};
-    const Curves strands = stress_strands(range);
-    const StressPairs pairs = aimed_pairs(range, choice.primitive->surface(strands, choice.options));
-    const Geometry geometry = choice.primitive->build(strands, choice.options);
-    BoxCheck boxes;
-    const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
-    PairTracing how{.extent = extent_of(pairs.rays), .no_skips = {"rounding"}};
     // Where fma is not fused mending gains nothing, and loses next to nothing.
-    how.arithmetic = loose(device());
+    PairTracing how{.arithmetic = loose(device()), .no_skips = {"splitting"}};
     how.arithmetic.fuses_fma = true;
-    how.no_skips.emplace_back("splitting");
-    const PairScene scene(device(), *choice.primitive, geometry, range, how);
-    Agreement agreement;
-    add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
+    const Agreement agreement = agreement_in("gentle", 500, how);
     EXPECT_EQ(agreement.only_device + agreement.only_cpu, 0u);
-    EXPECT_NE(judge_agreement(agreement, choice, *range.family).verdict, StressVerdict::fails);
+    EXPECT_NE(judge_agreement(agreement, choice_, stress_family("gentle")).verdict, StressVerdict::fails);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RoundedIntersector,
