@@ -22,19 +22,19 @@ class RoundedIntersector : public GpuTest, public testing::WithParamInterface<co
     Agreement agreement_in(const char* family, uint64_t count, PairTracing how) const {
         const StressRange range{&stress_family(family), default_stress_seed, 0, count};
         const Curves strands = stress_strands(range);
-        const StressPairs pairs = aimed_pairs(range, choice_.primitive->surface(strands, choice_.options));
-        const Geometry geometry = choice_.primitive->build(strands, choice_.options);
+        const StressPairs pairs = aimed_pairs(range, choice.primitive->surface(strands, choice.options));
+        const Geometry geometry = choice.primitive->build(strands, choice.options);
         BoxCheck boxes;
-        const auto plain = intersect_pairs(*choice_.primitive, geometry, pairs, Precision::single, boxes);
+        const auto plain = intersect_pairs(*choice.primitive, geometry, pairs, Precision::single, boxes);
         how.extent = extent_of(pairs.rays);
         how.no_skips.emplace_back("rounding");
-        const PairScene scene(device(), *choice_.primitive, geometry, range, how);
+        const PairScene scene(device(), *choice.primitive, geometry, range, how);
         Agreement agreement;
         add_difference(strands, pairs.rays, scene.trace(pairs.rays), plain, agreement);
         return agreement;
     }
 
-    PrimitiveChoice choice_ = parse_primitive(GetParam());
+    PrimitiveChoice choice = parse_primitive(GetParam());
 };
 
 TEST_P(RoundedIntersector, AnswersAsCppDoes) {
@@ -50,7 +50,7 @@ TEST_P(RoundedIntersector, IsValidWithMendedQuotients) {
     how.arithmetic.fuses_fma = true;
     const Agreement agreement = agreement_in("gentle", 500, how);
     EXPECT_EQ(agreement.only_device + agreement.only_cpu, 0u);
-    EXPECT_NE(judge_agreement(agreement, choice_, stress_family("gentle")).verdict, StressVerdict::fails);
+    EXPECT_NE(judge_agreement(agreement, choice, stress_family("gentle")).verdict, StressVerdict::fails);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RoundedIntersector,
