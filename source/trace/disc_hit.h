@@ -27,7 +27,7 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
     std::array<SweptPart<Real>, max_depth + 2> stack;
     int size = 0;
     stack[size++] = {at, 0, 1, 0};
-    while (size > 0) {
+    for (int parts = 0; size > 0; ++parts) {
         const SweptPart<Real> part = stack[--size];
         Scaled<Real, 6> ball = inside_coefficients(part.s.x, part.s.y, part.s.r);
         add_product<Real, 3, 3>(ball, scaled(part.s.z), scaled(part.s.z), Real(-1));
@@ -48,7 +48,7 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
             if (excess(bracketed_root(f, part.a, part.b, leading_sign(along))) >= 0) return true;
             continue;
         }
-        if (part.depth >= max_depth || !part.can_be_split()) {
+        if (part.depth >= max_depth || parts > most_parts || !part.can_be_split()) {
             if (excess(part.middle()) >= 0) return true;
             continue;
         }

@@ -150,11 +150,20 @@ class Oracle::Query {
         best_.t = t;
         const double u = range.global(static_cast<double>(hit.u));
         best_.u = on_curve(piece.u0 + (double(piece.u1) - double(piece.u0)) * u);
-        best_.normal = glm::normalize(frame.global(hit.normal.x, hit.normal.y, hit.normal.z));
+        best_.normal = unit_or_facing(frame.global(hit.normal.x, hit.normal.y, hit.normal.z));
         best_.radius = static_cast<double>(hit.radius);
         best_.curve = piece.curve;
         best_.on_cap = hit.on_cap;
         best_primitive_ = primitive;
+    }
+
+    /// Unit; against the ray where a vanishing radius leaves no direction, or an overflow.
+    glm::dvec3 unit_or_facing(const glm::dvec3& normal) const {
+        const auto unit = [](const glm::dvec3& v) {
+            return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+        };
+        const glm::dvec3 own = unit(normal);
+        return std::abs(glm::length(own) - 1) < 0.5 ? own : -unit(ray_.direction);
     }
 
     void visit_triangle(uint32_t primitive) {
@@ -180,7 +189,7 @@ class Oracle::Query {
         }
         best_.u = on_curve(best_.u);
         best_.radius = std::max(best_.radius, 0.0);  // beside an edge by a rounding error
-        best_.normal = glm::normalize(normal);
+        best_.normal = unit_or_facing(normal);
         best_.curve = triangle.curve;
         best_.on_cap = false;
         best_primitive_ = primitive;

@@ -153,7 +153,7 @@ Components<Real> find_components(const Swept<Real>& s) {
     stack[size++] = {s.x, s.y, s.r, Real(0), Real(1), 0};
     Components<Real> list;
     const auto inside = [&](Real u) { return s.inside(u); };
-    while (size > 0) {
+    for (int parts = 0; size > 0; ++parts) {
         const Part part = stack[--size];
         const Scaled<Real, 6> d = inside_coefficients(part.x, part.y, part.r);
         const InsideRange<Real> range(d, part.x, part.y, part.r);
@@ -179,7 +179,7 @@ Components<Real> find_components(const Swept<Real>& s) {
             continue;
         }
         const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
-        if (part.depth >= max_depth || !(middle > part.a && middle < part.b)) {
+        if (part.depth >= max_depth || parts > most_parts || !(middle > part.a && middle < part.b)) {
             if (inside(middle) >= 0) add_component(list, middle, middle);
             continue;
         }
@@ -251,11 +251,11 @@ class SurfaceRoots {
         std::array<Part, max_depth + 2> stack;
         int size = 0;
         stack[size++] = {swept_.on(component_.a, component_.b), component_.a, component_.b, 0, 0};
-        while (size > 0) {
+        for (int parts = 0; size > 0; ++parts) {
             Part part = stack[--size];
             if (is_settled(part)) continue;
             if (part.depth >= max_depth || part.tight_levels >= levels_of_multiple_root ||
-                !part.can_be_split()) {
+                parts > most_parts || !part.can_be_split()) {
                 add_multiple(part, part.middle());
                 continue;
             }
