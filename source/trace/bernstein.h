@@ -15,7 +15,7 @@ inline constexpr double split_ratio = 0.4837;
 
 /// More parts than a subdivision needs to find all roots: what it has left then is rounding noise (a ray that
 /// runs along the surface), and is decided at its middle. Without a limit that would take 2^40 of them.
-inline constexpr int most_parts = 20000;
+inline constexpr int most_subdivisions = 20000;
 
 /// Coefficients b_i binomial(N, i) of a polynomial of degree N on [0, 1].
 template <class Real, size_t N>

@@ -48,7 +48,7 @@ bool discs_contain(const Swept<Real>& s, const PieceEnds& ends, Real z) {
             if (excess(bracketed_root(f, part.a, part.b, leading_sign(along))) >= 0) return true;
             continue;
         }
-        if (part.depth >= max_depth || parts > most_parts || !part.can_be_split()) {
+        if (part.depth >= max_depth || parts > most_subdivisions || !part.can_be_split()) {
             if (excess(part.middle()) >= 0) return true;
             continue;
         }

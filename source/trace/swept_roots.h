@@ -179,7 +179,7 @@ Components<Real> find_components(const Swept<Real>& s) {
             continue;
         }
         const Real middle = part.a + Real(split_ratio) * (part.b - part.a);
-        if (part.depth >= max_depth || parts > most_parts || !(middle > part.a && middle < part.b)) {
+        if (part.depth >= max_depth || parts > most_subdivisions || !(middle > part.a && middle < part.b)) {
             if (inside(middle) >= 0) add_component(list, middle, middle);
             continue;
         }
@@ -255,7 +255,7 @@ class SurfaceRoots {
             Part part = stack[--size];
             if (is_settled(part)) continue;
             if (part.depth >= max_depth || part.tight_levels >= levels_of_multiple_root ||
-                parts > most_parts || !part.can_be_split()) {
+                parts > most_subdivisions || !part.can_be_split()) {
                 add_multiple(part, part.middle());
                 continue;
             }
