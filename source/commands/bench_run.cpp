@@ -163,8 +163,7 @@ void BenchRun::run_block(size_t model, size_t resolution, const Scene& scene, co
                                                           axes_->resolutions[resolution])
                                               : RayFacts{});
     options_.apply_to(block.input.options);
-    // The host waits between builds, and a GPU left idle speeds up more slowly.
-    block.input.options.build_warm_up_ms = 3 * block.input.warm_up_ms;
+    block.input.options.build_warm_up_ms = block.input.warm_up_ms;
     block.input.options.ray_extent = object_extent(scene, block.rays.extent());
     if (!options_.save_rays.empty())
         for (size_t set = 0; set < wanted.size(); ++set)

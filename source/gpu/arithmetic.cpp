@@ -3,7 +3,6 @@
 #include "base/random.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/embedded_shaders.h"
-#include "gpu/rounding.h"
 
 #include <fmt/format.h>
 
@@ -89,8 +88,9 @@ std::vector<ArithmeticAnswer> probe_arithmetic(const Device& device, std::span<c
         uint32_t count, unused;
     };
     const std::span<const uint32_t> plain = embedded_shader("arithmetic.comp");
-    const std::vector<uint32_t> alike =
-        probing.rounds_alike ? rounded_alike(plain, probing.mends_quotients) : std::vector<uint32_t>();
+    const std::vector<uint32_t> alike = probing.rounding.alike
+                                            ? rounded_alike(plain, probing.rounding.mends_quotients)
+                                            : std::vector<uint32_t>();
     const ComputePipeline pipeline(device, alike.empty() ? plain : alike,
                                    {{hardware_fma_id, probing.hardware_fma ? 1u : 0u}},
                                    sizeof(PushConstants));

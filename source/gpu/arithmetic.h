@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/rounding.h"
 
 #include <array>
 #include <span>
@@ -26,6 +27,8 @@ struct Arithmetic {
 
     /// Whether C++ gives other bits.
     bool rounds_loosely() const { return contracts || rough_quotients || rough_roots; }
+    /// What makes a shader give the bits of C++ here.
+    ShaderRounding alike() const { return {true, fuses_fma && (rough_quotients || rough_roots)}; }
     /// "fma is fused; precise products are not contracted, Dekker's splitting is exact; ...".
     std::string to_string() const;
 };
@@ -62,7 +65,7 @@ static_assert(sizeof(ArithmeticAnswer) == 80);
 /// How the probing shader is compiled.
 struct ArithmeticProbing {
     bool hardware_fma = false;  // product errors by fma instead of Dekker's splitting
-    bool rounds_alike = false, mends_quotients = false;  // gpu/rounding.h
+    ShaderRounding rounding;
 };
 
 /// Runs the shader on the device.

@@ -8,6 +8,12 @@
 
 namespace strandlab {
 
+/// How a shader is made to round.
+struct ShaderRounding {
+    bool alike = false;            // as C++
+    bool mends_quotients = false;  // and roots, where the device rounds them badly and fuses fma
+};
+
 /// The same module with every float sum and product rounded by itself (NoContraction). mends_quotients, for
 /// devices that fuse fma and round quotients or roots badly: these are corrected by the residue that fma
 /// gives (Markstein, "Computation of elementary functions on the IBM RISC System/6000 processor", 1990), to

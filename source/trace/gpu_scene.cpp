@@ -266,8 +266,9 @@ void GpuScene::make_pipeline(const Primitive& primitive, const std::vector<Const
     all.emplace_back(blocks_of_lanes_id, device_.info().kind == "cpu" ? 1u : 0u);
     const bool is_loose = has_intersector_ && arithmetic_.rounds_loosely();
     const bool alike = !skips("rounding", is_loose) && is_loose;
-    pipelines_ = ScenePipelines(device_, primitive, std::move(all), {alike, arithmetic_.fuses_fma},
-                                curves_of_a_ray_ != 0, options.pipelines);
+    pipelines_ =
+        ScenePipelines(device_, primitive, std::move(all), alike ? arithmetic_.alike() : ShaderRounding{},
+                       curves_of_a_ray_ != 0, options.pipelines);
     cost_.traversal = options.traversal;
     if (options.traversal != Traversal::pipeline && !device_.can_query_rays()) {
         if (options.traversal == Traversal::query)

@@ -4,7 +4,6 @@
 #include "gpu/embedded_shaders.h"
 #include "gpu/query_pipeline.h"
 #include "gpu/ray_tracing_pipeline.h"
-#include "gpu/rounding.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +20,7 @@ std::string stem(const std::string& file) { return file.substr(0, file.find('.')
 }  // namespace
 
 ScenePipelines::ScenePipelines(const Device& device, const Primitive& primitive, PipelineConstants constants,
-                               const IntersectorRounding& rounding, bool filters_triangles,
+                               const ShaderRounding& rounding, bool filters_triangles,
                                PipelineStore* store)
     : device_(device),
       shaders_(primitive.shaders),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/rounding.h"
 #include "gpu/trace_pipeline.h"
 #include "primitives/primitive.h"
 
@@ -29,11 +30,6 @@ class PipelineStore {
     std::map<std::string, Pipeline> pipelines_;
 };
 
-/// How intersectors are rounded (gpu/rounding.h).
-struct IntersectorRounding {
-    bool alike = false, mends_quotients = false;
-};
-
 /// Which of a scene's pipelines.
 struct PipelineRequest {
     bool by_query = false;     // ray queries instead of a ray-tracing pipeline
@@ -47,7 +43,7 @@ class ScenePipelines {
     /// constants: of all stages but those of a request. filters_triangles: rays have curves of their own, and
     /// triangles no shader that tells them. store: where pipelines are kept for other scenes; none: here.
     ScenePipelines(const Device& device, const Primitive& primitive, PipelineConstants constants,
-                   const IntersectorRounding& rounding, bool filters_triangles, PipelineStore* store);
+                   const ShaderRounding& rounding, bool filters_triangles, PipelineStore* store);
 
     /// The pipeline; the first time compiles it, as far as the driver does that now.
     PipelineStore::Pipeline make(const PipelineRequest& request) const;
@@ -62,7 +58,7 @@ class ScenePipelines {
     PrimitiveShaders shaders_;
     std::string primitive_;
     PipelineConstants constants_;
-    IntersectorRounding rounding_;
+    ShaderRounding rounding_;
     bool filters_triangles_ = false;
     std::unique_ptr<PipelineStore> own_store_;
     PipelineStore* store_ = nullptr;

@@ -64,11 +64,11 @@ TEST_F(ArithmeticTest, FmaIsProvenFusedOrNot) {
 }
 
 TEST_F(ArithmeticTest, ShadersThatAreRoundedAlikeRoundAsThisProcessor) {
-    const bool fused = arithmetic_of(device()).fuses_fma;
-    const Arithmetic facts = arithmetic_of(device(), {.rounds_alike = true, .mends_quotients = fused});
+    const Arithmetic own = arithmetic_of(device());
+    const Arithmetic facts = arithmetic_of(device(), {.rounding = own.alike()});
     EXPECT_FALSE(facts.rounds_loosely()) << facts.to_string();
     EXPECT_TRUE(facts.keeps_precise && facts.exact_products) << facts.to_string();
-    EXPECT_EQ(facts.fuses_fma, fused) << facts.to_string();
+    EXPECT_EQ(facts.fuses_fma, own.fuses_fma) << facts.to_string();
 }
 
 TEST_F(ArithmeticTest, MendingLeavesQuotientsThatHaveNoResidue) {
@@ -79,7 +79,8 @@ TEST_F(ArithmeticTest, MendingLeavesQuotientsThatHaveNoResidue) {
         probes[i].factor = pairs[i][0];
         probes[i].direction[0] = pairs[i][1];
     }
-    const auto answers = probe_arithmetic(device(), probes, {.rounds_alike = true, .mends_quotients = true});
+    const auto answers =
+        probe_arithmetic(device(), probes, {.rounding = {.alike = true, .mends_quotients = true}});
     for (size_t i = 0; i < probes.size(); ++i) {
         EXPECT_EQ(answers[i].quotient, pairs[i][0] / pairs[i][1]) << i;
         EXPECT_EQ(answers[i].root, std::sqrt(pairs[i][0])) << i;

@@ -47,7 +47,7 @@ TEST_P(RoundedIntersector, AnswersAsCppDoes) {
 TEST_P(RoundedIntersector, IsValidWithMendedQuotients) {
     // Where fma is not fused mending gains nothing, and loses next to nothing.
     PairTracing how{.arithmetic = loose(device()), .no_skips = {"splitting"}};
-    how.arithmetic.fuses_fma = true;
+    how.arithmetic.fuses_fma = how.arithmetic.rough_quotients = true;
     const Agreement agreement = agreement_in("gentle", 500, how);
     EXPECT_EQ(agreement.only_device + agreement.only_cpu, 0u);
     EXPECT_NE(judge_agreement(agreement, choice, stress_family("gentle")).verdict, StressVerdict::fails);
