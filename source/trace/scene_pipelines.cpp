@@ -20,8 +20,7 @@ std::string stem(const std::string& file) { return file.substr(0, file.find('.')
 }  // namespace
 
 ScenePipelines::ScenePipelines(const Device& device, const Primitive& primitive, PipelineConstants constants,
-                               const ShaderRounding& rounding, bool filters_triangles,
-                               PipelineStore* store)
+                               const ShaderRounding& rounding, bool filters_triangles, PipelineStore* store)
     : device_(device),
       shaders_(primitive.shaders),
       primitive_(primitive.name),
